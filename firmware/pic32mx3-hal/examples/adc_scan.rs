@@ -2,14 +2,15 @@
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
 mod board;
+mod text;
 
 use core::fmt::Write as _;
 use core::sync::atomic::{AtomicU32, Ordering};
-use embedded_io::Write;
 use pic32mx3_hal::adc::{Channels, Results, Timing};
 use pic32mx3_hal::gpio::Level;
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
 use pic32mx3_hal::{Peripherals, core_timer, cpu, entry, interrupt, reset};
+use text::Text;
 
 const BAUD: u32 = 115_200;
 const CHANNELS: Channels = Channels::NONE.with(2).with(3).with(12);
@@ -34,15 +35,6 @@ fn on_scan(context: &mut Context<vector::ADC>) {
     Source::Adc.clear();
 }
 interrupt!(ADC, on_scan);
-
-/// Lets `write!` write to a UART.
-struct Text<W>(W);
-
-impl<W: Write> core::fmt::Write for Text<W> {
-    fn write_str(&mut self, text: &str) -> core::fmt::Result {
-        self.0.write_all(text.as_bytes()).map_err(|_| core::fmt::Error)
-    }
-}
 
 fn main() -> ! {
     let Some(peripherals) = Peripherals::take() else {

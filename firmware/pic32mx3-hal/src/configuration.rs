@@ -178,6 +178,19 @@ impl Configuration {
         self
     }
 
+    pub(crate) const fn source(&self) -> OscillatorSource {
+        self.source
+    }
+
+    /// Multiplier, divider behind the PLL and the peripherals' divider, as OSCCON has them.
+    pub(crate) const fn dividers(&self) -> (u32, u32, u32) {
+        (
+            self.multiplier as u32,
+            self.output_divider as u32,
+            self.peripheral_divider as u32,
+        )
+    }
+
     /// The frequencies that come of it. Fails (to compile, in a constant) when they are impossible.
     #[must_use]
     pub const fn clocks(&self) -> Clocks {

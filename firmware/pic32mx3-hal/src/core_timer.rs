@@ -134,18 +134,19 @@ impl Delay {
             counts_per_us: if counts_per_us == 0 { 1 } else { counts_per_us },
         }
     }
+}
 
-    fn wait_counts(counts: u32) {
-        let start = cpu::count();
-        while cpu::count().wrapping_sub(start) < counts {}
-    }
+/// Waits for so many counts at least.
+pub(crate) fn wait_counts(counts: u32) {
+    let start = cpu::count();
+    while cpu::count().wrapping_sub(start) < counts {}
 }
 
 impl DelayNs for Delay {
     fn delay_ns(&mut self, ns: u32) {
         // Rounded up to a microsecond above 1 s / 1000, else the product would not fit.
         match ns.checked_mul(self.counts_per_us) {
-            Some(product) => Self::wait_counts(product.div_ceil(1_000)),
+            Some(product) => wait_counts(product.div_ceil(1_000)),
             None => self.delay_us(ns.div_ceil(1_000)),
         }
     }
@@ -154,10 +155,10 @@ impl DelayNs for Delay {
         const SLICE_US: u32 = 1_000_000;
         let mut left = us;
         while left > SLICE_US {
-            Self::wait_counts(SLICE_US * self.counts_per_us);
+            wait_counts(SLICE_US * self.counts_per_us);
             left -= SLICE_US;
         }
-        Self::wait_counts(left * self.counts_per_us);
+        wait_counts(left * self.counts_per_us);
     }
 
     fn delay_ms(&mut self, ms: u32) {

@@ -36,16 +36,16 @@
 //! # What is where
 //! | subject | module | section of the chip's reference |
 //! | --- | --- | --- |
-//! | configuration words, clocks | [`mod@configuration`], [`clock`] | 3, 6 |
+//! | configuration words, clocks | [`mod@configuration`], [`clock`], [`oscillator`] | 3, 6 |
 //! | pins | [`gpio`], [`change_notice`], [`external`] | 8, 9, 5 |
 //! | interrupts, their handlers and what those own | [`mod@interrupt`] | 5 |
-//! | time | [`core_timer`], [`timer`] | 5, 10 |
+//! | time | [`core_timer`], [`timer`], [`calendar`] | 5, 10, 17 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
-//! | ADC | [`adc`] | 13 |
-//! | UART | [`uart`] | 14 |
+//! | ADC, comparators | [`adc`], [`comparator`] | 13, 17 |
+//! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
 //! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
 //! | what stays | [`persistent`], [`flash`] | 16 |
-//! | sleeping, sections without interrupts | [`cpu`] | 5 |
+//! | sleeping, sections without interrupts | [`cpu`], [`power`] | 5 |
 //!
 //! # Safety
 //! All functions are safe to call: registers are reached through owners, or through functions whose worst is a wrong level
@@ -62,9 +62,11 @@
 extern crate std;
 
 pub mod adc;
+pub mod calendar;
 pub mod capture;
 pub mod change_notice;
 pub mod clock;
+pub mod comparator;
 pub mod configuration;
 pub mod core_timer;
 pub mod cpu;
@@ -72,13 +74,17 @@ pub mod exception;
 pub mod external;
 pub mod flash;
 pub mod gpio;
+pub mod i2c;
 pub mod interrupt;
 pub mod memory;
+pub mod oscillator;
 mod peripherals;
 pub mod persistent;
+pub mod power;
 pub mod pwm;
 mod register;
 pub mod reset;
+pub mod spi;
 pub mod stack;
 mod start;
 pub mod timer;

@@ -1,10 +1,12 @@
-//! `cargo xtask firmware ROBOT`: builds a robot's firmware as ELF and Intel HEX and tells what it takes of the chip.
+//! `cargo xtask firmware ROBOT`: builds a robot's firmware as ELF and Intel HEX and tells what it takes of the chip. `hal` in place of
+//! a robot measures the library of the SR8730's chip.
 
 pub(crate) mod build;
 mod checksum;
 pub(crate) mod elf;
 mod flow;
 mod graph;
+pub(crate) mod hal;
 mod hex;
 mod image_crc;
 mod instruction;
@@ -32,7 +34,7 @@ pub(crate) const ROBOT: &str = "sr8730";
 /// Arguments of `cargo xtask firmware`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FirmwareArguments {
-    /// Robot, by the name of its robot.toml.
+    /// Robot, by the name of its robot.toml; or "hal", the library of the SR8730's chip.
     robot: String,
     /// Print one JSON object.
     #[arg(long)]
@@ -105,6 +107,12 @@ impl RobotFirmware {
 
 /// Builds, writes what is flashed, prints what the firmware takes, and fails when that is too much.
 pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
+    if arguments.robot == hal::NAME {
+        if arguments.calibration.is_some() || !arguments.features.is_empty() {
+            bail!("the library of the chip has no features and no calibration");
+        }
+        return hal::run(arguments.json);
+    }
     if let Some(port) = rp2040::ports()?.iter().find(|port| port.name == arguments.robot) {
         if arguments.calibration.is_some() || !arguments.features.is_empty() {
             bail!("the firmware of {} has no features and no calibration", port.name);

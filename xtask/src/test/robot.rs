@@ -93,12 +93,7 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         "the emulator's proof",
         &["--manifest-path", "sim/pic32/proof/Cargo.toml"],
     )?;
-    let examples = [
-        "--manifest-path",
-        "firmware/pic32mx3-hal/Cargo.toml",
-        "--examples",
-    ];
-    let examples = build_others("the examples of pic32mx3-hal", &examples)?.join("examples");
+    let examples = firmware::hal::build_examples()?;
     let mut command = workspace::cargo();
     command
         .args(["test", "--locked", "--no-fail-fast"])

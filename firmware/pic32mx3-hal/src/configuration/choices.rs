@@ -41,9 +41,12 @@ macro_rules! factors {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u8)]
-        #[allow(missing_docs, reason = "the variant's name is its factor")]
         pub enum $name {
-            $($variant = $code,)*
+            $(
+                $(#[$text])*
+                #[doc = concat!("The factor is ", stringify!($factor), ".")]
+                $variant = $code,
+            )*
         }
 
         impl $name {

@@ -6,9 +6,11 @@ macro_rules! pins {
     ($($field:ident $port:literal $number:literal;)*) => {
         /// All pins, in the state in which a reset leaves them.
         #[derive(Debug)]
-        #[allow(missing_docs, reason = "the field's name says it all: rg9 is pin 9 of port G")]
         pub struct Pins {
-            $(pub $field: Pin<$port, $number, Reset>,)*
+            $(
+                #[doc = concat!("Pin ", stringify!($number), " of port ", $port, ".")]
+                pub $field: Pin<$port, $number, Reset>,
+            )*
         }
 
         impl Pins {

@@ -6,6 +6,19 @@ use super::Register;
 /// Watchdog (17).
 pub(crate) const WDTCON: Register = Register::at(0xBF80_0000);
 
+/// Calendar (peripherals, 4): control, alarm, time, date, time and date of the alarm.
+pub(crate) const RTCCON: Register = Register::at(0xBF80_0200);
+/// (peripherals, 4)
+pub(crate) const RTCALRM: Register = Register::at(0xBF80_0210);
+/// (peripherals, 4)
+pub(crate) const RTCTIME: Register = Register::at(0xBF80_0220);
+/// (peripherals, 4)
+pub(crate) const RTCDATE: Register = Register::at(0xBF80_0230);
+/// (peripherals, 4)
+pub(crate) const ALRMTIME: Register = Register::at(0xBF80_0240);
+/// (peripherals, 4)
+pub(crate) const ALRMDATE: Register = Register::at(0xBF80_0250);
+
 /// Timers (10): control, counter, period.
 pub(crate) const fn timer_control(number: u8) -> Register {
     Register::at(0xBF80_0600).plus(0x200 * (number as u32 - 1))
@@ -39,6 +52,52 @@ pub(crate) const fn compare_primary(number: u8) -> Register {
 /// OCxRS (11).
 pub(crate) const fn compare_secondary(number: u8) -> Register {
     compare_control(number).plus(0x20)
+}
+
+/// SPIxCON (peripherals, 1).
+pub(crate) const fn spi_control(number: u8) -> Register {
+    Register::at(0xBF80_5800).plus(0x200 * (number as u32 - 1))
+}
+/// SPIxSTAT (peripherals, 1).
+pub(crate) const fn spi_status(number: u8) -> Register {
+    spi_control(number).plus(0x10)
+}
+/// SPIxBUF (peripherals, 1).
+pub(crate) const fn spi_buffer(number: u8) -> Register {
+    spi_control(number).plus(0x20)
+}
+/// SPIxBRG (peripherals, 1).
+pub(crate) const fn spi_divider(number: u8) -> Register {
+    spi_control(number).plus(0x30)
+}
+
+/// I2CxCON (peripherals, 2).
+pub(crate) const fn i2c_control(number: u8) -> Register {
+    Register::at(0xBF80_5000).plus(0x200 * (number as u32 - 1))
+}
+/// I2CxSTAT (peripherals, 2).
+pub(crate) const fn i2c_status(number: u8) -> Register {
+    i2c_control(number).plus(0x10)
+}
+/// I2CxADD (peripherals, 2).
+pub(crate) const fn i2c_address(number: u8) -> Register {
+    i2c_control(number).plus(0x20)
+}
+/// I2CxMSK (peripherals, 2).
+pub(crate) const fn i2c_mask(number: u8) -> Register {
+    i2c_control(number).plus(0x30)
+}
+/// I2CxBRG (peripherals, 2).
+pub(crate) const fn i2c_divider(number: u8) -> Register {
+    i2c_control(number).plus(0x40)
+}
+/// I2CxTRN (peripherals, 2).
+pub(crate) const fn i2c_transmit(number: u8) -> Register {
+    i2c_control(number).plus(0x50)
+}
+/// I2CxRCV (peripherals, 2).
+pub(crate) const fn i2c_receive(number: u8) -> Register {
+    i2c_control(number).plus(0x60)
 }
 
 /// UxMODE (14).
@@ -79,6 +138,13 @@ pub(crate) const fn adc_buffer(index: u8) -> Register {
     Register::at(0xBF80_9070).plus(0x10 * (index as u32 & 15))
 }
 
+/// Reference of the comparators (peripherals, 6).
+pub(crate) const CVRCON: Register = Register::at(0xBF80_9800);
+/// CMxCON (peripherals, 5).
+pub(crate) const fn comparator_control(number: u8) -> Register {
+    Register::at(0xBF80_A000).plus(0x10 * (number as u32 - 1))
+}
+
 /// Oscillator (6).
 pub(crate) const OSCCON: Register = Register::at(0xBF80_F000);
 /// Device identity (2).
@@ -113,6 +179,8 @@ pub(crate) const fn interrupt_priorities(index: u32) -> Register {
     Register::at(0xBF88_1090).plus(0x10 * index)
 }
 
+/// Flash wait states and prefetch (7).
+pub(crate) const CHECON: Register = Register::at(0xBF88_4000);
 /// RAM size (7).
 pub(crate) const BMXDRMSZ: Register = Register::at(0xBF88_2040);
 /// Program flash size (7).
@@ -145,8 +213,9 @@ pub(crate) const CNPUE: Register = Register::at(0xBF88_61E0);
 #[cfg(test)]
 mod tests {
     use super::{
-        adc_buffer, capture_buffer, compare_secondary, interrupt_enables, interrupt_priorities, port_latch,
-        port_open_drain, timer_period, uart_baud,
+        adc_buffer, capture_buffer, comparator_control, compare_secondary, i2c_receive, i2c_transmit,
+        interrupt_enables, interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider,
+        timer_period, uart_baud,
     };
 
     /// The computed addresses are those of the printed tables (sections 5, 8, 10 to 14).
@@ -157,6 +226,11 @@ mod tests {
             (timer_period(5), 0xBF80_0E20),
             (capture_buffer(5), 0xBF80_2810),
             (compare_secondary(4), 0xBF80_3620),
+            (comparator_control(2), 0xBF80_A010),
+            (spi_divider(1), 0xBF80_5830),
+            (spi_buffer(2), 0xBF80_5A20),
+            (i2c_receive(1), 0xBF80_5060),
+            (i2c_transmit(2), 0xBF80_5250),
             (uart_baud(2), 0xBF80_6240),
             (adc_buffer(15), 0xBF80_9160),
             (interrupt_enables(1), 0xBF88_1070),

@@ -64,6 +64,11 @@ pub trait Bus {
     /// after each access.
     fn horizon(&self) -> u64;
 
+    /// The core executes WAIT. What follows of it for the clock, follows when the horizon is moved to this cycle.
+    fn waits(&mut self, cycle: u64) {
+        let _ = cycle;
+    }
+
     /// The core enters an interrupt handler; several may be entered and left within one run.
     fn interrupt_taken(&mut self, taken: Taken) {
         let _ = taken;

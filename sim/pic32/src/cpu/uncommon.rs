@@ -83,7 +83,10 @@ impl Cpu {
                 return Ok(self.return_from_exception());
             }
             Uncommon::Deret => return self.return_from_debug(),
-            Uncommon::Wait => self.is_waiting = true,
+            Uncommon::Wait => {
+                self.is_waiting = true;
+                port.bus.waits(self.cycle);
+            }
             _ => self.execute_privileged(uncommon),
         }
         Ok(Flow::Next)

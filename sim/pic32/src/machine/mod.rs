@@ -220,6 +220,7 @@ impl Machine {
         if let Some(request) = self.chip.take_request() {
             self.cpu.interrupt(request);
         }
+        self.chip.wake_if_requested(self.cycle);
     }
 
     fn obey(&mut self, order: Order) {
@@ -327,9 +328,7 @@ impl Machine {
             self.accounting
                 .add_idle(self.chip.system_clock().cycles_for(idle));
         }
-        if self.cpu.is_waiting() {
-            self.chip.note_idle();
-        }
+        self.chip.note_wait(self.cpu.is_waiting(), self.cycle);
         match exit {
             Exit::Reached | Exit::Horizon => None,
             Exit::CoreTimer => {
@@ -376,7 +375,7 @@ impl Machine {
 
     /// Whether the core has no clock: the crystal is dead, and nothing replaces it.
     pub fn is_clock_dead(&self) -> bool {
-        self.clock.is_stopped()
+        self.clock.is_stopped() && !self.chip.is_asleep()
     }
 
     /// The core.

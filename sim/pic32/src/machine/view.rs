@@ -37,6 +37,10 @@ impl Bus for View<'_> {
         }
     }
 
+    fn waits(&mut self, cycle: u64) {
+        self.chip.note_wait(true, self.clock.base_of(cycle));
+    }
+
     fn interrupt_taken(&mut self, taken: Taken) {
         let cycle = self.clock.base_of(taken.cycle);
         let vector = self.chip.requested_vector().unwrap_or(taken.request.vector);

@@ -50,6 +50,11 @@ impl Machine {
         self.chip.pull_up(pin, self.cycle);
     }
 
+    /// The board has a crystal of 32.768 kHz on RC13 and RC14, which swings as soon as the program wants it.
+    pub fn fit_watch_crystal(&mut self) {
+        self.chip.fit_watch_crystal(self.cycle);
+    }
+
     /// The outside will drive this pin from a cycle to come (a cycle of the past counts as now).
     pub fn schedule_input(&mut self, cycle: u64, pin: Pin, level: Level) {
         self.chip.schedule_input(cycle.max(self.cycle), pin, level);

@@ -1,5 +1,6 @@
 //! Reading and writing special function registers: bytes, halves, CLR, SET and INV, and what a write sets in motion.
 
+use super::calendar::CalendarWrite;
 use super::nvm::Started;
 use super::ports::Field;
 use super::register::{Block, Register, Via};
@@ -85,7 +86,12 @@ impl Chip {
                 self.compares[usize::from(number)].read(word)
             }
             Block::Serial(number) => self.serials[usize::from(number)].peek(word),
+            Block::Spi(number) => self.spis[usize::from(number)].peek(word),
+            Block::I2c(number) => self.i2cs[usize::from(number)].peek(word),
             Block::Analog => self.analog.read(word),
+            Block::Comparators => self.comparators.read(word),
+            Block::Calendar => self.calendar.read(word, cycle),
+            Block::VoltageReference => Some(self.comparators.read_reference()),
             Block::Oscillator => self.clock.read(word),
             Block::Device => self.system.read_device(word),
             Block::Flash => self.nvm.read(word),
@@ -126,6 +132,11 @@ impl Chip {
                 self.serials[usize::from(number)].take();
                 self.settle_serial(number);
             }
+            (Block::Spi(number), 2) => {
+                self.spis[usize::from(number)].take();
+                self.settle_spi(number);
+            }
+            (Block::I2c(number), 6) => self.i2cs[usize::from(number)].take(),
             (Block::Reset, 1) if self.system.is_reset_armed() => {
                 self.order(Order::Reset(ResetSource::Software));
             }
@@ -148,7 +159,12 @@ impl Chip {
             Block::Capture(_) => {}
             Block::Compare(number) => self.write_compare((number, word), value, cycle),
             Block::Serial(number) => self.write_serial((number, word), value, cycle),
+            Block::Spi(number) => self.write_spi((number, word), value, cycle),
+            Block::I2c(number) => self.write_i2c((number, word), value, cycle),
             Block::Analog => self.write_analog(word, value, cycle),
+            Block::Comparators => self.write_comparators(word, value, cycle),
+            Block::Calendar => self.write_calendar(word, value, cycle),
+            Block::VoltageReference => self.write_reference(value),
             Block::Oscillator => self.write_oscillator(word, value, cycle),
             Block::Device => {
                 let written = self.system.write_device(word, value);
@@ -224,12 +240,34 @@ impl Chip {
         self.schedule_timers();
     }
 
+    fn write_calendar(&mut self, word: u8, value: u32, cycle: u64) {
+        let lock = (self.system.is_open(), cycle);
+        if self.calendar.write(word, value, lock) == CalendarWrite::Locked {
+            self.record.misuse(Misuse::Locked);
+        }
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
+    fn write_comparators(&mut self, word: u8, value: u32, cycle: u64) {
+        self.comparators.write(word, value, cycle);
+        self.settle_comparators(cycle);
+    }
+
+    fn write_reference(&mut self, value: u32) {
+        self.comparators.write_reference(value);
+        if self.comparators.has_other_reference() {
+            self.record
+                .misuse(Misuse::NotModelled(Unmodelled::VoltageReference));
+        }
+    }
+
     fn write_oscillator(&mut self, word: u8, value: u32, cycle: u64) {
         if !self.system.is_open() {
             return self.record.misuse(Misuse::Locked);
         }
         self.advance_timers(cycle);
         let change = self.clock.write(word, value);
+        self.settle_calendar(cycle);
         self.clock_changed(change, cycle);
     }
 

@@ -19,11 +19,20 @@ pub(crate) const MONITOR_CYCLES: u64 = 160_000;
 /// How long a wanted switch takes; no source has the figure.
 const SWITCH_CYCLES: u64 = 800;
 
+/// What waking takes: 10 us, 1024 cycles of an 8 MHz crystal, at most 2 ms until the PLL is in step.
+const WAKE_CYCLES: u64 = 800;
+const CRYSTAL_START_CYCLES: u64 = 10_240;
+const PLL_LOCK_CYCLES: u64 = 160_000;
+
 const SWITCH: u32 = 1 << 0;
+const SECONDARY_ON: u32 = 1 << 1;
 const FAILED: u32 = 1 << 3;
 const SLEEP: u32 = 1 << 4;
 const PLL_LOCKED: u32 = 1 << 5;
 const LOCKED: u32 = 1 << 7;
+const SECONDARY_READY: u32 = 1 << 22;
+/// The crystal of a watch, which the robot's board lacks.
+const WATCH_HZ: u64 = 32_768;
 /// Fields of OSCCON that keep what is written: SOSCEN, SLPEN, CLKLOCK, NOSC, PLLMULT, PBDIV, FRCDIV, PLLODIV.
 const KEPT: u32 = 0x3F1F_0792;
 
@@ -51,6 +60,10 @@ pub(crate) struct Clock {
     crystal_alive: bool,
     failed: bool,
     switching: bool,
+    /// Sleep has stopped everything but the low-power oscillator.
+    asleep: bool,
+    /// The board has a crystal of 32.768 kHz.
+    pub(crate) has_watch_crystal: bool,
     pub(crate) system: Rate,
     pub(crate) peripheral: Rate,
 }
@@ -65,6 +78,8 @@ impl Clock {
             crystal_alive: true,
             failed: false,
             switching: false,
+            asleep: false,
+            has_watch_crystal: false,
             system: Rate::STOPPED,
             peripheral: Rate::STOPPED,
         };
@@ -82,6 +97,7 @@ impl Clock {
             | configuration.pll_output_field() << 27
             | 1 << 24; // FRCDIV: by 2.
         (self.tuning, self.failed, self.switching) = (0, false, false);
+        self.asleep = false;
         self.settle();
         self.rescue()
     }
@@ -102,7 +118,7 @@ impl Clock {
 
     /// Works out both rates.
     fn settle(&mut self) {
-        let hz = self.hz_of(self.current);
+        let hz = if self.asleep { 0 } else { self.hz_of(self.current) };
         self.system = Rate::from_hz(hz);
         self.peripheral = self.system.divided(1 << (self.control >> 19 & 3));
     }
@@ -115,6 +131,7 @@ impl Clock {
             Oscillator::FastPll => self.through_pll(FAST_HZ),
             Oscillator::Primary => crystal,
             Oscillator::PrimaryPll => self.through_pll(crystal),
+            Oscillator::Secondary if self.secondary_runs() => WATCH_HZ,
             Oscillator::Secondary => 0,
             Oscillator::LowPower => LOW_POWER_HZ,
             Oscillator::FastBy16 => FAST_HZ / 16,
@@ -122,6 +139,11 @@ impl Clock {
                 FAST_HZ / [1, 2, 4, 8, 16, 32, 64, 256][(self.control >> 24 & 7) as usize]
             }
         }
+    }
+
+    /// Whether the secondary oscillator swings; Sleep lets it.
+    pub(crate) fn secondary_runs(&self) -> bool {
+        self.has_watch_crystal && self.control & SECONDARY_ON != 0
     }
 
     fn through_pll(&self, hz: u64) -> u64 {
@@ -148,6 +170,7 @@ impl Clock {
                 self.control
                     | flag(self.switching, SWITCH)
                     | flag(self.failed, FAILED)
+                    | flag(self.secondary_runs(), SECONDARY_READY)
                     | flag(self.current.has_pll() && !self.system.is_stopped(), PLL_LOCKED)
                     | self.current.field() << 12,
             ),
@@ -185,7 +208,7 @@ impl Clock {
 
     /// What was announced by [`Change::After`] happens; `true` when the monitor did it, which is an interrupt.
     pub(crate) fn happen(&mut self) -> bool {
-        let lost = self.system.is_stopped();
+        let lost = self.system.is_stopped() && !self.asleep;
         if lost {
             self.current = Oscillator::Fast;
             self.failed = true;
@@ -200,6 +223,35 @@ impl Clock {
         }
         self.settle();
         lost
+    }
+
+    /// Sleep begins: nothing is clocked any more.
+    pub(crate) fn fall_asleep(&mut self) -> Change {
+        self.asleep = true;
+        self.settle();
+        Change::Rates
+    }
+
+    /// Sleep is over, and the clock runs as before.
+    pub(crate) fn wake(&mut self) -> Change {
+        self.asleep = false;
+        self.settle();
+        Change::Rates
+    }
+
+    /// How long the clock takes to run again: general knowledge of the family, like the figures.
+    pub(crate) fn wake_cycles(&self) -> u64 {
+        let crystal = if self.current.needs_crystal() {
+            CRYSTAL_START_CYCLES
+        } else {
+            0
+        };
+        let pll = if self.current.has_pll() {
+            PLL_LOCK_CYCLES
+        } else {
+            0
+        };
+        WAKE_CYCLES + crystal + pll
     }
 
     /// The crystal stops.

@@ -2,6 +2,7 @@
 
 use super::analog::{AdcDue, Trigger};
 use super::clock::Change;
+use super::comparators;
 use super::compare;
 use super::counter::Counter;
 use super::rate::NEVER;
@@ -34,11 +35,16 @@ impl Chip {
                     self.serials[usize::from(number)].receive();
                     self.settle_serial(number);
                 }
+                Slot::Calendar => self.serve_calendar(due),
+                Slot::Comparators => self.serve_comparators(due, surroundings),
+                Slot::Spi(number) => self.serve_spi(number, due),
+                Slot::I2c(number) => self.serve_i2c(number, due),
                 Slot::Flash => {
                     self.nvm.finish();
                     self.interrupts.raise(Irq::FLASH, due);
                 }
                 Slot::Clock => self.serve_clock(due),
+                Slot::Wake => self.serve_wake(due),
                 Slot::Watchdog => self.order(Order::Bark),
             }
         }
@@ -248,6 +254,50 @@ impl Chip {
             }
         }
         self.schedule.set(Slot::Analog, self.analog.next_event());
+    }
+
+    fn serve_calendar(&mut self, cycle: u64) {
+        if self.calendar.tick(cycle) {
+            self.interrupts.raise(Irq::CALENDAR, cycle);
+        }
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
+    /// After anything that its oscillator depends on.
+    pub(super) fn settle_calendar(&mut self, cycle: u64) {
+        self.calendar.set_clock(self.clock.secondary_runs(), cycle);
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
+    /// The board gets a crystal of 32.768 kHz on RC13 and RC14.
+    pub(crate) fn fit_watch_crystal(&mut self, cycle: u64) {
+        self.clock.has_watch_crystal = true;
+        self.settle_calendar(cycle);
+    }
+
+    fn serve_comparators(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) {
+        for number in 0..2 {
+            let Some((plus, minus)) = self.comparators.inputs(number) else {
+                continue;
+            };
+            let plus = plus.parts(|channel| self.sample(channel, cycle, surroundings));
+            let minus = minus.parts(|channel| self.sample(channel, cycle, surroundings));
+            if self.comparators.follow(number, plus > minus) {
+                self.interrupts.raise(Irq::comparator(number), cycle);
+            }
+        }
+        self.comparators.next_look(cycle);
+        self.settle_comparators(cycle);
+    }
+
+    /// What the comparators do to their pins, and when they look again.
+    pub(super) fn settle_comparators(&mut self, cycle: u64) {
+        for (number, pin) in (0..).zip(comparators::OUTPUT_PINS) {
+            let level = self.comparators.output(number);
+            self.own(pin, level, cycle);
+        }
+        self.schedule
+            .set(Slot::Comparators, self.comparators.next_event());
     }
 
     fn sample(&mut self, channel: u8, cycle: u64, surroundings: &mut dyn Surroundings) -> u16 {

@@ -13,6 +13,7 @@ impl Irq {
     pub(crate) const CHANGE_NOTICE: Irq = Irq(32);
     pub(crate) const ANALOG: Irq = Irq(33);
     pub(crate) const CLOCK_MONITOR: Irq = Irq(46);
+    pub(crate) const CALENDAR: Irq = Irq(47);
     pub(crate) const FLASH: Irq = Irq(56);
 
     /// Core software interrupt 0 or 1.
@@ -53,6 +54,41 @@ impl Irq {
     /// Transmission of UART 1 or 2 (0 or 1).
     pub(crate) const fn serial_transmit(number: u8) -> Irq {
         Irq(28 + 14 * number)
+    }
+
+    /// Comparator 1 or 2 (0 or 1).
+    pub(crate) const fn comparator(number: u8) -> Irq {
+        Irq(35 + number)
+    }
+
+    /// Overrun of SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_fault(number: u8) -> Irq {
+        Irq(23 + 14 * number)
+    }
+
+    /// Room for a word in SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_transmit(number: u8) -> Irq {
+        Irq(24 + 14 * number)
+    }
+
+    /// A word from SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_receive(number: u8) -> Irq {
+        Irq(25 + 14 * number)
+    }
+
+    /// Bus collision of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_collision(number: u8) -> Irq {
+        Irq(29 + 14 * number)
+    }
+
+    /// A byte for or from the slave of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_slave(number: u8) -> Irq {
+        Irq(30 + 14 * number)
+    }
+
+    /// The end of a step of the master of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_master(number: u8) -> Irq {
+        Irq(31 + 14 * number)
     }
 
     const fn mask(self) -> u64 {

@@ -6,6 +6,7 @@
 //! | part | what is modelled | what is doubtful or left out |
 //! | --- | --- | --- |
 //! | interrupts | priorities, sub-priorities, natural order, level-type sources, one or many vectors, shadow set | the proximity timer only stores |
+//! | Sleep and Idle | clocks that stop, what wakes, start-up of crystal and PLL, the watchdog's interrupt | the core timer goes on in Idle; what takes the clock of the analog converter's own oscillator |
 //! | clock | all oscillators, PLL, PBDIV, switching, the monitor, SYSKEY | 2 ms until the monitor acts, 10 us for a switch: no source has them; start-up takes no time |
 //! | watchdog, resets | WDTPS, feeding, RCON, software reset; out of Idle a non-maskable interrupt | LPRC is 32 kHz exactly |
 //! | flash | keys, word, row, page and all, protection, the core's wait | durations are the longest that are told |
@@ -16,16 +17,24 @@
 //! | input capture | all modes, queue of 4, overflow | interrupts in Sleep |
 //! | analog converter | all triggers, scan, alternation, halves, CLRASAM, all forms, TAD | other references, the negative input |
 //! | UART | queues of 4, parity, 9 bits, break, framing, overrun, loopback, as levels on pins | flow control, infrared, wake-up, hardware auto-baud |
-//! | SPI, I2C, PMP, RTCC, DMA, comparators | registers keep what is written | everything else; switching one on is recorded |
+//! | SPI | master, slave, framed; 8, 16, 32 bits; both buffers, overrun, clock edges, select | unloaded slaves, exact frame pulses |
+//! | I2C | master step by step, slave with 7 and 10 bits, masks, general call, stretching, collisions | slew rates; losing the bus |
+//! | comparators, reference | all inputs, polarity, events, pins, Sleep | looked at each 300 ns; no offset; the reference on its pin or from pins |
+//! | calendar | digits, leap years, alarm, calibration, the lock | its output pin |
+//! | PMP, DMA | registers keep what is written | everything else; switching one on is recorded |
 
 mod access;
 mod analog;
+mod buses;
+mod calendar;
 mod capture;
 mod clock;
+mod comparators;
 mod compare;
 mod configuration;
 mod counter;
 mod events;
+mod i2c;
 mod inputs;
 mod interrupts;
 mod matrix;
@@ -33,12 +42,14 @@ mod notice;
 mod nvm;
 mod pads;
 mod ports;
+mod power;
 mod pulse;
 mod rate;
 mod record;
 mod register;
 mod schedule;
 mod serial;
+mod spi;
 mod storage;
 mod system;
 mod timers;
@@ -56,20 +67,25 @@ use crate::cpu::InterruptRequest;
 use crate::memory::FlashTiming;
 use crate::pins::Port;
 use analog::AdcModule;
+use calendar::Calendar;
 use capture::Capture;
 use clock::{Change, Clock};
+use comparators::Comparators;
 use compare::Compare;
 use configuration::Configuration;
+use i2c::I2c;
 use inputs::InputQueue;
 use interrupts::Interrupts;
 use matrix::Matrix;
 use notice::ChangeNotice;
 use nvm::Nvm;
 use ports::Ports;
+use power::PowerState;
 use rate::Now;
 use record::{AccessRecord, AccessSite};
 use schedule::{Schedule, Slot};
 use serial::Serial;
+use spi::Spi;
 use std::ops::Range;
 use storage::Storage;
 use system::{SystemRegisters, Watchdog};
@@ -101,6 +117,7 @@ pub(crate) struct Chip {
     offered: Option<InterruptRequest>,
     interrupts: Interrupts,
     clock: Clock,
+    power: PowerState,
     system: SystemRegisters,
     watchdog: Watchdog,
     nvm: Nvm,
@@ -111,7 +128,11 @@ pub(crate) struct Chip {
     compares: [Compare; 5],
     captures: [Capture; 5],
     analog: AdcModule,
+    comparators: Comparators,
+    calendar: Calendar,
     serials: [Serial; 2],
+    spis: [Spi; 2],
+    i2cs: [I2c; 2],
     storage: Storage,
     inputs: InputQueue,
 }
@@ -129,6 +150,7 @@ impl Chip {
             offered: None,
             interrupts: Interrupts::new(),
             clock,
+            power: PowerState::default(),
             system: SystemRegisters::new(),
             watchdog,
             nvm: Nvm::new(),
@@ -139,7 +161,11 @@ impl Chip {
             compares: [const { Compare::OFF }; 5],
             captures: std::array::from_fn(|_| Capture::default()),
             analog: AdcModule::new(),
+            comparators: Comparators::new(),
+            calendar: Calendar::new(),
             serials: [Serial::new(), Serial::new()],
+            spis: std::array::from_fn(|_| Spi::default()),
+            i2cs: [I2c::new(), I2c::new()],
             storage: Storage::default(),
             inputs: InputQueue::default(),
         };
@@ -154,6 +180,7 @@ impl Chip {
         self.clock.set_configuration(Configuration::of(configuration));
         self.interrupts = Interrupts::new();
         self.offered = None;
+        self.power = PowerState::default();
         self.system.reset(source);
         self.watchdog = Watchdog::new(self.clock.configuration(), cycle);
         self.nvm = Nvm::new();
@@ -164,14 +191,19 @@ impl Chip {
         self.compares = std::array::from_fn(|number| self.compares[number].reset());
         self.captures = std::array::from_fn(|_| Capture::default());
         self.analog = AdcModule::new();
+        self.comparators = Comparators::new();
+        self.calendar.reset();
         for serial in &mut self.serials {
             serial.reset();
         }
+        self.spis.iter_mut().for_each(Spi::reset);
+        self.i2cs.iter_mut().for_each(I2c::reset);
         self.storage = Storage::default();
         self.ports.reset(cycle);
         self.schedule = Schedule::new();
         self.schedule.set(Slot::Input, self.inputs.next());
         let change = self.clock.reset();
+        self.settle_calendar(cycle);
         self.clock_changed(change, cycle);
         self.begin(cycle);
     }
@@ -265,29 +297,10 @@ impl Chip {
         self.system.causes()
     }
 
-    /// The watchdog ended WAIT instead of resetting: a non-maskable interrupt by general knowledge of the family.
-    pub(crate) fn bark_at_idle(&mut self, cycle: u64) {
-        let state = if self.clock.sleeps() {
-            system::SLEEP_BIT
-        } else {
-            system::IDLE_BIT
-        };
-        self.system.note_cause(system::WATCHDOG_BIT | state);
-        self.restart_watchdog(cycle);
-    }
-
     /// The watchdog begins its period anew.
     pub(crate) fn restart_watchdog(&mut self, cycle: u64) {
         self.watchdog.restart(cycle);
         self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());
-    }
-
-    /// The program executes WAIT.
-    pub(crate) fn note_idle(&mut self) {
-        if self.clock.sleeps() {
-            self.record.misuse(Misuse::NotModelled(Unmodelled::Sleep));
-        }
-        self.system.note_cause(system::IDLE_BIT);
     }
 
     /// A flash operation is over.
@@ -331,6 +344,7 @@ impl Chip {
         for number in 0..2 {
             self.serials[usize::from(number)].change_clock(now);
             self.settle_serial(number);
+            self.change_bus_clock(number, now);
         }
         self.check_clock();
         self.order(Order::Clock);

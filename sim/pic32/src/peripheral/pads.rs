@@ -1,12 +1,13 @@
 //! Pins: the peripherals that own them, the observers of their changes, and their levels.
 
 use super::analog::Trigger;
+use super::buses::I2cLine;
 use super::capture::{self, Captured};
 use super::inputs::InputQueue;
 use super::ports::{Changes, Field, bits};
 use super::schedule::Slot;
 use super::timers::Ticked;
-use super::{Chip, Irq, Misuse, notice, serial};
+use super::{Chip, Irq, Misuse, i2c, notice, serial, spi};
 use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// INT0 to INT4.
@@ -37,6 +38,28 @@ enum Hearer {
     Capture(u8),
     TimerClock(u8),
     Receiver(u8),
+    SpiClock(u8),
+    SpiSelect(u8),
+    I2cData(u8),
+    I2cClock(u8),
+}
+
+/// Which bus a pin belongs to: SCK 1 is INT0 besides.
+fn bus_of(pin: Pin) -> Option<Hearer> {
+    let spis = (0..).zip(&spi::PINS).find_map(|(number, pins)| match pin {
+        _ if pin == pins.clock => Some(Hearer::SpiClock(number)),
+        _ if pin == pins.select => Some(Hearer::SpiSelect(number)),
+        _ => None,
+    });
+    spis.or_else(|| {
+        (0..)
+            .zip(&i2c::PINS)
+            .find_map(|(number, (data, clock))| match pin {
+                _ if pin == *data => Some(Hearer::I2cData(number)),
+                _ if pin == *clock => Some(Hearer::I2cClock(number)),
+                _ => None,
+            })
+    })
 }
 
 fn hearer_of(pin: Pin) -> Option<Hearer> {
@@ -104,7 +127,7 @@ impl Chip {
         }
         let levels = self.ports.inputs(port);
         for pin in bits(changes.inputs).filter_map(|bit| Pin::new(port, bit)) {
-            if let Some(hearer) = hearer_of(pin) {
+            for hearer in hearer_of(pin).into_iter().chain(bus_of(pin)) {
                 self.hear(hearer, Level::of(levels & pin.mask() != 0), cycle);
             }
         }
@@ -146,6 +169,10 @@ impl Chip {
                     self.settle_serial(number);
                 }
             }
+            Hearer::SpiClock(number) => self.hear_spi_clock(number, level, cycle),
+            Hearer::SpiSelect(number) => self.hear_spi_select(number, level, cycle),
+            Hearer::I2cData(number) => self.hear_i2c((number, I2cLine::Data), level, cycle),
+            Hearer::I2cClock(number) => self.hear_i2c((number, I2cLine::Clock), level, cycle),
         }
     }
 

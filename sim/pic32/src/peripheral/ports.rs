@@ -18,6 +18,8 @@ struct PortState {
     analog: u16,
     owned: u16,
     owned_high: u16,
+    /// Owned by a peripheral that only pulls low.
+    owned_open: u16,
     /// Held as inputs by something stronger than TRIS: JTAG, the crystal, a receiver.
     held: u16,
     outside: u16,
@@ -37,6 +39,7 @@ impl PortState {
         analog: 0,
         owned: 0,
         owned_high: 0,
+        owned_open: 0,
         held: 0,
         outside: 0,
         outside_high: 0,
@@ -49,7 +52,7 @@ impl PortState {
     fn settle(&mut self) {
         let high = (self.lat & !self.owned) | (self.owned_high & self.owned);
         let wanted = (!self.tris | self.owned) & !self.held;
-        self.driven = wanted & !(self.open_drain & high);
+        self.driven = wanted & !((self.open_drain | self.owned_open) & high);
         self.driven_high = self.driven & high;
         let undriven =
             (self.outside & self.outside_high) | (!self.outside & (self.pull_up | self.board_pull_up));
@@ -157,7 +160,19 @@ impl Ports {
                 state.owned |= pin.mask();
                 set_bit(&mut state.owned_high, pin, level.is_high());
             }
-            None => state.owned &= !pin.mask(),
+            None => {
+                state.owned &= !pin.mask();
+                state.owned_open &= !pin.mask();
+            }
+        })
+    }
+
+    /// A peripheral pulls the pin low, or lets it go without giving it back to LAT and TRIS.
+    pub(crate) fn own_open_drain(&mut self, pin: Pin, releases: bool, cycle: u64) -> Changes {
+        self.change(pin.port(), cycle, |state| {
+            state.owned |= pin.mask();
+            state.owned_open |= pin.mask();
+            set_bit(&mut state.owned_high, pin, releases);
         })
     }
 

@@ -63,6 +63,17 @@ pub enum Misuse {
     AnalogPinIsOutput(Pin),
     /// A character was written into the full queue of UART 1 or 2, by number, and lost.
     TransmitQueueFull(u8),
+    /// A word was written into the transmit buffer of SPI 1 or 2, by number, while another one waited there; that one is lost.
+    SpiBufferFull(u8),
+    /// SPI 1 or 2, by number, was switched on with settings that the part does not combine: framed or without a select pin with
+    /// CKE = 1, or a slave with SMP = 1.
+    SpiSettings(u8),
+    /// SPI 1 or 2, by number, clocks faster than 25 MHz.
+    SpiTooFast(u8),
+    /// I2C 1 or 2, by number, was asked for a step while another one ran; it is not done.
+    I2cStepIgnored(u8),
+    /// I2C 1 or 2, by number, was switched on with a divider of 0 or 1.
+    I2cDivider(u8),
     /// Something was switched on that this emulator does not model.
     NotModelled(Unmodelled),
 }

@@ -11,7 +11,12 @@ pub(crate) enum Block {
     Capture(u8),
     Compare(u8),
     Serial(u8),
+    Spi(u8),
+    I2c(u8),
     Analog,
+    Comparators,
+    Calendar,
+    VoltageReference,
     Oscillator,
     Device,
     Flash,
@@ -88,6 +93,8 @@ impl Register {
             (Block::Device, 2 | 3)
                 | (Block::Flash, 1 | 3 | 4)
                 | (Block::Serial(_), 2 | 3)
+                | (Block::Spi(_), 2)
+                | (Block::I2c(_), 6)
                 | (Block::Capture(_), 1)
                 | (Block::Interrupts, 1)
         )
@@ -108,17 +115,17 @@ fn block_of(offset: u32) -> Option<(Block, u32)> {
     };
     match offset {
         0x0_0000..=0x0_000F => Some((Block::Watchdog, 0)),
-        0x0_0200..=0x0_025F => Some((Kept(Unmodelled::RealTimeClock), 0x0200)),
+        0x0_0200..=0x0_025F => Some((Block::Calendar, 0x0200)),
         TIMER_BASE..=0x0_0FFF => numbered(TIMER_BASE, Block::Timer),
         CAPTURE_BASE..=0x0_29FF => numbered(CAPTURE_BASE, Block::Capture),
         COMPARE_BASE..=0x0_39FF => numbered(COMPARE_BASE, Block::Compare),
-        0x0_5000..=0x0_53FF => numbered(0x5000, |number| Kept(Unmodelled::I2c(number + 1))),
-        0x0_5800..=0x0_5BFF => numbered(0x5800, |number| Kept(Unmodelled::Spi(number + 1))),
+        0x0_5000..=0x0_53FF => numbered(0x5000, Block::I2c),
+        0x0_5800..=0x0_5BFF => numbered(0x5800, Block::Spi),
         SERIAL_BASE..=0x0_63FF => numbered(SERIAL_BASE, Block::Serial),
         0x0_7000..=0x0_706F => Some((Kept(Unmodelled::ParallelPort), 0x7000)),
         0x0_9000..=0x0_916F => Some((Block::Analog, 0x9000)),
-        0x0_9800 => Some((Kept(Unmodelled::VoltageReference), 0x9800)),
-        0x0_A000..=0x0_A06F => Some((Kept(Unmodelled::Comparator), 0xA000)),
+        0x0_9800 => Some((Block::VoltageReference, 0x9800)),
+        0x0_A000..=0x0_A06F => Some((Block::Comparators, 0xA000)),
         0x0_F000..=0x0_F01F => Some((Block::Oscillator, 0xF000)),
         0x0_F200..=0x0_F23F => Some((Block::Device, 0xF200)),
         0x0_F400..=0x0_F44F => Some((Block::Flash, 0xF400)),
@@ -142,9 +149,9 @@ fn is_there(block: Block, word: u8) -> bool {
         Block::Timer(_) | Block::Compare(_) => word < 3,
         Block::Capture(_) => word < 2,
         Block::Serial(_) => word < 5,
-        Block::Unmodelled(Unmodelled::I2c(_)) => word < 7,
-        Block::Unmodelled(Unmodelled::Spi(_)) => word < 4,
-        Block::Unmodelled(Unmodelled::Comparator) => matches!(word, 0 | 1 | 6),
+        Block::I2c(_) => word < 7,
+        Block::Spi(_) => word < 4,
+        Block::Comparators => matches!(word, 0 | 1 | 6),
         Block::Analog => word != 3,
         Block::Device => word != 1,
         Block::Interrupts => !matches!(word, 5 | 8 | 19),
@@ -165,14 +172,21 @@ mod tests {
     fn addresses_of_the_reference() {
         let table = [
             (0xBF80_0000, Block::Watchdog, 0),
+            (0xBF80_0250, Block::Calendar, 5),
             (0xBF80_0620, Block::Timer(0), 2),
             (0xBF80_0A10, Block::Timer(2), 1),
             (0xBF80_0E00, Block::Timer(4), 0),
             (0xBF80_2610, Block::Capture(3), 1),
             (0xBF80_3820, Block::Compare(4), 2),
+            (0xBF80_5040, Block::I2c(0), 4),
+            (0xBF80_5260, Block::I2c(1), 6),
+            (0xBF80_5830, Block::Spi(0), 3),
+            (0xBF80_5A20, Block::Spi(1), 2),
             (0xBF80_6240, Block::Serial(1), 4),
             (0xBF80_9060, Block::Analog, 6),
             (0xBF80_9160, Block::Analog, 22),
+            (0xBF80_9800, Block::VoltageReference, 0),
+            (0xBF80_A060, Block::Comparators, 6),
             (0xBF80_F018, Block::Oscillator, 1),
             (0xBF80_F234, Block::Device, 3),
             (0xBF80_F440, Block::Flash, 4),

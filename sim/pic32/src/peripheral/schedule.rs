@@ -17,15 +17,25 @@ pub(crate) enum Slot {
     Transmitter(u8),
     /// A byte has arrived at UART 1 or 2 (0 or 1).
     Receiver(u8),
+    /// The clock of SPI 1 or 2 (0 or 1) changes.
+    Spi(u8),
+    /// A time of I2C 1 or 2 (0 or 1) is over.
+    I2c(u8),
+    /// The comparators look at their inputs.
+    Comparators,
+    /// A half second of the calendar is over.
+    Calendar,
     /// A flash operation ends.
     Flash,
     /// The clock changes.
     Clock,
+    /// The clock runs again after Sleep.
+    Wake,
     /// The watchdog barks.
     Watchdog,
 }
 
-const SLOTS: [Slot; 19] = [
+const SLOTS: [Slot; 26] = [
     Slot::Input,
     Slot::Timer(0),
     Slot::Timer(1),
@@ -42,9 +52,16 @@ const SLOTS: [Slot; 19] = [
     Slot::Transmitter(1),
     Slot::Receiver(0),
     Slot::Receiver(1),
+    Slot::Spi(0),
+    Slot::Spi(1),
+    Slot::I2c(0),
+    Slot::I2c(1),
     Slot::Flash,
     Slot::Clock,
+    Slot::Wake,
     Slot::Watchdog,
+    Slot::Comparators,
+    Slot::Calendar,
 ];
 
 impl Slot {
@@ -56,9 +73,14 @@ impl Slot {
             Slot::Analog => 11,
             Slot::Transmitter(number) => 12 + number as usize,
             Slot::Receiver(number) => 14 + number as usize,
-            Slot::Flash => 16,
-            Slot::Clock => 17,
-            Slot::Watchdog => 18,
+            Slot::Spi(number) => 16 + number as usize,
+            Slot::I2c(number) => 18 + number as usize,
+            Slot::Flash => 20,
+            Slot::Clock => 21,
+            Slot::Wake => 22,
+            Slot::Watchdog => 23,
+            Slot::Comparators => 24,
+            Slot::Calendar => 25,
         }
     }
 }

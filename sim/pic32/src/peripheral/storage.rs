@@ -3,19 +3,11 @@
 /// A block that is not modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unmodelled {
-    /// SPI 1 or 2, by number.
-    Spi(u8),
-    /// I2C 1 or 2, by number.
-    I2c(u8),
     /// The parallel master port.
     ParallelPort,
-    /// The real-time clock.
-    RealTimeClock,
     /// The DMA controller.
     Dma,
-    /// A comparator.
-    Comparator,
-    /// The comparators' reference voltage.
+    /// A reference voltage of the comparators that comes from pins.
     VoltageReference,
     /// The fault input of output compare.
     CompareFault,
@@ -25,8 +17,6 @@ pub enum Unmodelled {
     AnalogReference,
     /// The proximity timer of the interrupt controller.
     ProximityTimer,
-    /// WAIT in Sleep instead of Idle: the emulator idles.
-    Sleep,
 }
 
 /// Values by their offset in the register window.

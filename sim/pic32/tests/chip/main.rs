@@ -2,15 +2,22 @@
 //! core takes part.
 
 mod analog;
+mod calendar;
 mod clock;
+mod comparators;
 mod compare;
 mod flash;
 mod halts;
+mod i2c;
 mod interrupts;
+#[path = "../joined/mod.rs"]
+mod joined;
 mod pins;
+mod power;
 mod program;
 mod random;
 mod reset;
 mod serial;
+mod spi;
 mod timers;
 mod trace;

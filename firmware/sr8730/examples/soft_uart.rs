@@ -4,6 +4,7 @@
 //! Edges are noted at level 6, bits are sent by timer 4 at level 5, the main program polls once a millisecond.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
+#[path = "../../pic32mx3-hal/examples/board/mod.rs"]
 mod board;
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};

@@ -2,6 +2,13 @@
 //!
 //! They are built by `cargo xtask test --only emulator`, which names their folder in `RVAC_EXAMPLES`.
 
+mod buses;
+mod calendar;
+mod comparator;
+#[path = "../joined/mod.rs"]
+mod joined;
+mod power;
+
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, LineRate, Machine, Outputs, Surroundings, Uart};
 use pic32::peripheral::Sent;
@@ -31,6 +38,8 @@ fn folder() -> Option<PathBuf> {
 
 fn image(name: &str) -> Option<Image> {
     let bytes = std::fs::read(folder()?.join(name)).expect("the example was built with the others");
+    // `cargo xtask firmware hal` counts these lines.
+    println!("runs example {name}");
     Some(Image::from_elf(&bytes).expect("the example fits the chip"))
 }
 
