@@ -33,6 +33,12 @@ pub(crate) const SMALL_TARGETS: &str = "
         .map(control => `${control.id || control.className || control.textContent.trim()} `
             + `${size(control).width.toFixed(0)}x${size(control).height.toFixed(0)}`).join(', ')";
 
+/// Fields that are seen and smaller than 16 pixels: an iPhone enlarges the page when one of them gets the focus.
+const ENLARGED_FIELDS: &str = "
+    return [...document.querySelectorAll('input:not([type=checkbox], [type=radio], [type=range], [type=file]), select, textarea')]
+        .filter(field => field.checkVisibility() && parseFloat(getComputedStyle(field).fontSize) < 16)
+        .map(field => field.id || field.className || field.name).join(', ')";
+
 /// What is wrong with what the browser shows now, a line for each fault.
 pub(crate) async fn faults(browser: &Browser) -> Vec<String> {
     let is_there = browser.text("return typeof axe").await;
@@ -122,6 +128,14 @@ async fn walk(browser: &Browser, dressed: &str) -> String {
         let small = browser.text(SMALL_TARGETS).await;
         if !small.is_empty() && dressed.starts_with("phone") {
             writeln!(all, "{dressed}, {name}: controls that a thumb misses: {small}").unwrap();
+        }
+        let enlarged = browser.text(ENLARGED_FIELDS).await;
+        if !enlarged.is_empty() {
+            writeln!(
+                all,
+                "{dressed}, {name}: fields that enlarge the page of an iPhone: {enlarged}"
+            )
+            .unwrap();
         }
         browser.shot(&format!("axe-{dressed}-{name}")).await;
     }

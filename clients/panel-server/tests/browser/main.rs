@@ -43,6 +43,7 @@ mod robot;
 mod roles;
 mod schedules;
 mod slow_wire;
+mod small_print;
 mod software;
 #[path = "../stack/mod.rs"]
 mod stack;

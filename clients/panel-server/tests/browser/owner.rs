@@ -14,7 +14,7 @@ use crate::slow_wire::SlowWire;
 
 /// Widths and heights on which everything must be in reach: desktops, a phone upright and on its side, the narrowest one, and a desktop
 /// that is enlarged to twice its size.
-const SIZES: [(u32, u32); 6] = [
+pub(crate) const SIZES: [(u32, u32); 6] = [
     (1440, 900),
     (1024, 768),
     (390, 844),
@@ -45,7 +45,7 @@ const REFUSAL_IN_VIEW: &str = "
     return box !== undefined && box.left >= 0 && box.top >= 0 && box.right <= innerWidth && box.bottom <= innerHeight";
 
 /// The window has this size from now on.
-async fn resize(browser: &Browser, (width, height): (u32, u32)) {
+pub(crate) async fn resize(browser: &Browser, (width, height): (u32, u32)) {
     let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
     browser.devtools("Emulation.setDeviceMetricsOverride", &size);
     browser
@@ -103,7 +103,7 @@ async fn all_job_buttons_are_in_reach_on_every_size_and_start_and_stop_never_mov
 }
 
 /// Asks the daemon for something, as another client.
-fn ask(socket: &Path, request: &str) {
+pub(crate) fn ask(socket: &Path, request: &str) {
     let mut stream = UnixStream::connect(socket).unwrap();
     stream.write_all(format!("{request}\u{1f}").as_bytes()).unwrap();
 }

@@ -1,10 +1,13 @@
 //! The device table as rows of text.
 
-use rvac_api::{DeviceTable, LinkReading, RobotDescription, Versions};
+use rvac_api::{BatteryReading, DeviceTable, LinkReading, RobotDescription, Versions};
 
 use crate::codes::reading_text;
 use crate::percent_text;
 use crate::words::{Template, Words};
+
+/// A battery that feeds a robot gives more than this, amperes: less is what a meter in the charger's line reads then.
+pub(crate) const UNMEASURED_A: f64 = 0.005;
 
 /// One row.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -100,10 +103,7 @@ fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
         ),
         alarm(texts.state, state, battery.state == "fault"),
         row(texts.voltage, with_unit(words, texts.volts, battery.voltage_v, 2)),
-        row(
-            texts.current,
-            with_unit(words, texts.amperes, battery.current_a, 2),
-        ),
+        row(texts.current, battery_current(words, battery)),
         alarm(texts.temperature, temperature, battery.temperature_c.is_none()),
     ];
     if let Some(charger) = &battery.charger {
@@ -114,6 +114,15 @@ fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
         rows.extend(faults.map(|fault| alarm(texts.charger_fault, code(fault), true)));
     }
     rows
+}
+
+/// What drains a battery is never nothing: a robot that reports no current then measures only that of its charger.
+fn battery_current(words: &Words, battery: &BatteryReading) -> String {
+    let texts = &words.device;
+    if battery.state == "discharging" && battery.current_a.abs() < UNMEASURED_A {
+        return texts.not_measured.to_owned();
+    }
+    with_unit(words, texts.amperes, battery.current_a, 2)
 }
 
 fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
@@ -356,6 +365,25 @@ mod tests {
                 "{label} {value}"
             );
         }
+    }
+
+    #[test]
+    fn a_current_that_no_meter_reads_is_not_shown_as_none() {
+        let shown = |state: &str, current_a: f64| {
+            let battery = BatteryReading {
+                charge: 0.5,
+                voltage_v: 16.0,
+                current_a,
+                temperature_c: None,
+                state: state.to_owned(),
+                charger: None,
+            };
+            super::battery_current(ENGLISH, &battery)
+        };
+        assert_eq!(shown("discharging", 0.0), "not measured");
+        assert_eq!(shown("discharging", -0.43), "-0.43 A");
+        assert_eq!(shown("charging", 0.0), "0.00 A");
+        assert_eq!(shown("full", 0.0), "0.00 A");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The dock that a person moves by hand.
 
-use rvac_api::HomeView;
+use rvac_api::{HomeView, Pose};
 
 use crate::point::MapPoint;
 use crate::words::Words;
@@ -10,6 +10,22 @@ pub type DockPose = [f64; 3];
 
 /// Poses that differ by less are the same, metres and radians: the robot may round them.
 const SAME: f64 = 0.005;
+
+/// Between the body of a docked robot and the tower of the dock, metres.
+const DOCK_GAP_M: f64 = 0.01;
+
+/// The contacts of the dock, which look at the robot: a robot of this radius that stands on it has the pose `docked` and faces them.
+#[must_use]
+pub fn dock_contacts(docked: Pose, radius_m: f64) -> Pose {
+    let reach_m = radius_m + DOCK_GAP_M;
+    let (sin, cos) = docked.heading.sin_cos();
+    Pose {
+        x: docked.x + reach_m * cos,
+        y: docked.y + reach_m * sin,
+        heading: docked.heading + core::f64::consts::PI,
+        ..docked
+    }
+}
 
 /// Pose of a robot on the dock that was drawn by two places: the robot's place, and a place that it faces.
 #[must_use]
@@ -54,7 +70,7 @@ pub fn dock_text(words: &Words, home: &HomeView) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{dock_border, dock_pose, dock_text, is_same_dock};
+    use super::{dock_border, dock_contacts, dock_pose, dock_text, is_same_dock};
     use crate::MapPoint;
     use crate::words::Language;
     use core::f64::consts::{FRAC_PI_2, PI};
@@ -72,6 +88,22 @@ mod tests {
         assert!(is_same_dock([1.0, 2.0, PI], [1.001, 2.0, -PI]));
         assert!(!is_same_dock([1.0, 2.0, 0.0], [1.0, 2.0, PI]));
         assert!(!is_same_dock([1.0, 2.0, 0.0], [1.1, 2.0, 0.0]));
+    }
+
+    #[test]
+    fn the_dock_stands_before_the_robot_and_not_under_it() {
+        let docked = Pose {
+            x: 1.0,
+            y: 2.0,
+            heading: FRAC_PI_2,
+            ..Pose::default()
+        };
+        let dock = dock_contacts(docked, 0.175);
+        assert!(
+            (dock.x - 1.0).abs() < 1e-9 && (dock.y - 2.185).abs() < 1e-9,
+            "{dock:?}"
+        );
+        assert!((dock.heading - FRAC_PI_2 - PI).abs() < 1e-9);
     }
 
     #[test]

@@ -9,6 +9,7 @@
 mod calibration;
 mod camera;
 mod carpet;
+mod clock_field;
 mod codes;
 mod connection;
 mod currency;
@@ -34,6 +35,7 @@ mod lending;
 mod log_book;
 mod map_palette;
 mod mixes;
+mod name_layout;
 mod names;
 mod notices;
 mod offers;
@@ -66,6 +68,7 @@ pub use calibration::{
 };
 pub use camera::{Bounds, Camera, ScreenBox, View};
 pub use carpet::carpet_sentence;
+pub use clock_field::time_of_day;
 pub use codes::{
     Explanation, decision_text, explain, failure_text, log_text, question_text, refusal_text, run_text,
     state_title, strategy_title,
@@ -73,7 +76,7 @@ pub use codes::{
 pub use connection::Backoff;
 pub use currency::{Currency, News, PieceJoiner};
 pub use device_rows::{Row, Section, device_sections};
-pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
+pub use dock_place::{DockPose, dock_border, dock_contacts, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, away_text, keys_of, knob_place, silent_text, top_speeds};
 pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
@@ -100,6 +103,7 @@ pub use mixes::{
     CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
     MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
 };
+pub use name_layout::{NameBox, lay_out_names};
 pub use names::name_problem_text;
 pub use notices::{Notice, NoticeWatch, run_notice};
 pub use offers::{Offer, Offers, PauseKind, Wait};

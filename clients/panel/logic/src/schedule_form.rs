@@ -5,6 +5,7 @@ use rvac_api::{
     ScheduledJob, Weekday, name_problem,
 };
 
+use crate::clock_field::time_of_day;
 use crate::job_settings::JobSettings;
 use crate::kept_places::shape_text;
 use crate::room_choice::PASSES_MAX;
@@ -17,7 +18,7 @@ pub struct ScheduleForm {
     pub number: Option<u32>,
     /// Name.
     pub name: String,
-    /// Time of day, as `07:30`.
+    /// Time of day, as `07:30` or as it was typed.
     pub at: String,
     /// One day only: its date. Empty for days of the week.
     pub date: String,
@@ -159,11 +160,7 @@ impl ScheduleForm {
         if name_problem(&self.name).is_some() {
             return Err(texts.bad_name);
         }
-        if self.at.is_empty() {
-            return Err(texts.need_time);
-        }
-        // Browsers add seconds to a time that was typed with them.
-        let at: String = self.at.chars().take(5).collect();
+        let at = time_of_day(&self.at).ok_or(texts.need_time)?;
         let when = match (self.is_once, self.date.is_empty(), self.days.is_empty()) {
             (true, true, _) => return Err(texts.need_date),
             (false, _, true) => return Err(texts.need_days),
@@ -247,7 +244,7 @@ mod tests {
     fn filled() -> ScheduleForm {
         ScheduleForm {
             name: " Kitchen ".to_owned(),
-            at: "07:30:00".to_owned(),
+            at: "730".to_owned(),
             ..ScheduleForm::default()
         }
     }

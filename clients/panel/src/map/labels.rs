@@ -1,8 +1,11 @@
-//! Names of rooms, the places of zones and spots in the order, and where the robot waits for help, over the canvas: text that the browser draws, moved along with the camera. Who cannot see the map finds
-//! them as lists on the page, so these are hidden from screen readers.
+//! Names of rooms, the places of zones and spots in the order, and where the robot waits for help, over the canvas: text that the
+//! browser draws, moved along with the camera. Who cannot see the map finds them as lists on the page, so these are hidden from screen
+//! readers.
+
+use core::cmp::Ordering;
 
 use leptos::prelude::document;
-use panel_logic::{DrawnPart, ITEMS_MAX, MapPoint, Pixel, room_name};
+use panel_logic::{DrawnPart, ITEMS_MAX, MapPoint, NameBox, Pixel, lay_out_names, room_name};
 use rvac_api::RoomView;
 use wasm_bindgen::JsCast;
 use web_sys::HtmlElement;
@@ -22,6 +25,8 @@ pub(crate) struct Labels {
     parts: Vec<Label>,
     stop: Option<Label>,
     elements: Vec<HtmlElement>,
+    /// Width and height of each element, CSS pixels.
+    sizes_px: Vec<[f64; 2]>,
 }
 
 #[derive(Clone, Debug)]
@@ -58,6 +63,9 @@ impl Labels {
             class: "",
         };
         self.rooms = rooms.iter().take(ITEMS_MAX).map(label).collect();
+        // Where two names have no room beside each other, the larger room has its own.
+        self.rooms
+            .sort_by(|one, other| other.room_m2.partial_cmp(&one.room_m2).unwrap_or(Ordering::Equal));
         self.write();
     }
 
@@ -108,23 +116,54 @@ impl Labels {
             element.set_text_content(Some(&label.text));
             element.set_class_name(label.class);
         }
+        let size_px =
+            |element: &HtmlElement| [element.offset_width(), element.offset_height()].map(f64::from);
+        self.sizes_px = self.elements.iter().map(size_px).collect();
     }
 
-    /// Moves the labels to the screen positions of what they name.
+    /// Moves the labels to the screen positions of what they name, and those that would cover another beside them.
     pub(crate) fn place(&self, scene: &Scene) {
-        for (element, label) in self.elements.iter().zip(self.labels()) {
-            let Pixel { x, y } = scene.camera.screen_from_map(label.at);
-            let style = element.style();
-            // Neither property can be refused.
-            style
-                .set_property("display", if label.is_seen(scene) { "block" } else { "none" })
-                .ok();
-            style
-                .set_property(
-                    "transform",
-                    &format!("translate({x:.1}px, {y:.1}px) translate(-50%, -50%)"),
-                )
-                .ok();
+        let seen: Vec<(&HtmlElement, NameBox)> = self
+            .elements
+            .iter()
+            .zip(self.labels())
+            .zip(&self.sizes_px)
+            .filter_map(|((element, label), size_px)| {
+                let name = NameBox {
+                    middle: scene.camera.screen_from_map(label.at),
+                    size_px: *size_px,
+                    is_fixed: label.room_m2.is_none(),
+                };
+                if label.is_seen(scene) {
+                    return Some((element, name));
+                }
+                hide(element);
+                None
+            })
+            .collect();
+        let names: Vec<NameBox> = seen.iter().map(|(_, name)| *name).collect();
+        for ((element, name), down_px) in seen.iter().zip(lay_out_names(&names)) {
+            match down_px {
+                Some(down_px) => show_at(element, Pixel::new(name.middle.x, name.middle.y + down_px)),
+                None => hide(element),
+            }
         }
     }
+}
+
+/// It keeps its size, which is measured before it is shown.
+fn hide(element: &HtmlElement) {
+    element.style().set_property("visibility", "hidden").ok(); // The property cannot be refused.
+}
+
+fn show_at(element: &HtmlElement, Pixel { x, y }: Pixel) {
+    let style = element.style();
+    // Neither property can be refused.
+    style.set_property("visibility", "visible").ok();
+    style
+        .set_property(
+            "transform",
+            &format!("translate({x:.1}px, {y:.1}px) translate(-50%, -50%)"),
+        )
+        .ok();
 }

@@ -20,6 +20,12 @@ const SHADOW: f32 = 7.0;
 /// Radius of a bump mark in CSS pixels.
 const BUMP_RADIUS_PX: f64 = 4.5;
 
+/// Size of the mark of the dock, of the robot's radius.
+const DOCK_SHARE: f64 = 0.8;
+/// The middle of the dock before its contacts, of the robot's radius: its plate lies before them and its tower stands behind them,
+/// at a wall.
+const DOCK_MIDDLE_SHARE: f64 = 0.3;
+
 /// Radius of the mark in a door, of its width: a hint, and no obstacle to the eye.
 const DOOR_SHARE: f64 = 0.25;
 
@@ -37,10 +43,9 @@ pub(super) fn bump_marks(scene: &Scene, ratio: f64) -> Vec<f32> {
 pub(super) fn floor_marks(scene: &Scene, places: Places, in_relief: bool) -> Vec<f32> {
     let radius = scene.body_radius_m();
     let dock = scene
-        .plan()
-        .and_then(|plan| plan.dock)
+        .dock()
         .filter(|_| !in_relief)
-        .map(|pose| mark(pose, radius * 0.8, DOCK));
+        .map(|contacts| mark(dock_middle(contacts, radius), DOCK_SHARE * radius, DOCK));
     let doors = scene.doors().map(|door| {
         let at = Pose {
             x: door.x,
@@ -70,6 +75,15 @@ pub(super) fn robot_marks(scene: &Scene, places: Places) -> Vec<f32> {
     let robot = places.believed.map(|pose| mark(pose, radius, ROBOT));
     let truth = places.truth.map(|pose| mark(pose, radius, TRUE_PLACE));
     [robot, truth].into_iter().flatten().flatten().collect()
+}
+
+fn dock_middle(contacts: Pose, radius_m: f64) -> Pose {
+    let (sin, cos) = contacts.heading.sin_cos();
+    Pose {
+        x: contacts.x + DOCK_MIDDLE_SHARE * radius_m * cos,
+        y: contacts.y + DOCK_MIDDLE_SHARE * radius_m * sin,
+        ..contacts
+    }
 }
 
 fn mark(pose: Pose, size: f64, kind: f32) -> [f32; MARK_NUMBERS] {

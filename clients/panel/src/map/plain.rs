@@ -213,7 +213,7 @@ impl PlainRenderer {
             );
         }
         let radius = size(scene.body_radius_m());
-        if let Some(dock) = scene.plan().and_then(|plan| plan.dock) {
+        if let Some(dock) = scene.dock() {
             self.disc(
                 self.pixel(scene, MapPoint::of(&dock)),
                 radius * 0.6,

@@ -1,7 +1,7 @@
 //! Things above the floor in the orbit view: walls cut off to show the rooms, the dock, the body of the robot.
 
 use panel_logic::{BLOCK_NUMBERS, MapPalette, Rgb, WallBlocks};
-use rvac_api::{Pose, SimulatedPlan};
+use rvac_api::Pose;
 use web_sys::{WebGl2RenderingContext as Gl, WebGlVertexArrayObject};
 
 use super::gl::{GlError, GrowingBuffer, Program, layout};
@@ -9,7 +9,7 @@ use super::relief_shaders::{
     BLOCK_CORNERS, BLOCK_FRAGMENT, BLOCK_VERTEX, DRUM_CORNERS, DRUM_FRAGMENT, DRUM_VERTEX,
 };
 use super::renderer::Frame;
-use super::scene::{Ground, Scene};
+use super::scene::Scene;
 
 /// Walls are cut off here, metres: high enough to be walls, low enough to see what is behind them.
 pub(super) const WALL_M: f64 = 0.4;
@@ -20,8 +20,6 @@ const DOCK_PARTS: [([f32; 4], f32); 2] = [
     ([0.0, -0.12, 0.15, 0.12], 0.015),
     ([-0.05, -0.12, 0.02, 0.12], 0.16),
 ];
-/// Between the body of a docked robot and the tower, metres.
-const DOCK_GAP_M: f64 = 0.01;
 
 /// Robots as marks on the floor, and how high they stand.
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +112,7 @@ impl Relief {
             gl.bind_vertex_array(Some(&self.walls_layout));
             gl.draw_arrays_instanced(Gl::TRIANGLES, 0, BLOCK_CORNERS, self.blocks() as i32);
         }
-        if let Some(dock) = scene.plan().and_then(|plan| dock_pose(plan, scene)) {
+        if let Some(dock) = scene.dock() {
             self.draw_dock(dock, palette);
         }
         self.gl.depth_mask(false);
@@ -159,20 +157,4 @@ impl Relief {
         gl.depth_mask(false);
         gl.disable(Gl::CULL_FACE);
     }
-}
-
-/// Where the contacts of the dock are. A floor plan contains it; on the robot's map a docked robot's pose is known, which faces them.
-fn dock_pose(plan: &SimulatedPlan, scene: &Scene) -> Option<Pose> {
-    let told = plan.dock?;
-    if scene.ground() == Ground::True {
-        return Some(told);
-    }
-    let reach_m = scene.radius_m + DOCK_GAP_M;
-    let (sin, cos) = told.heading.sin_cos();
-    Some(Pose {
-        x: told.x + reach_m * cos,
-        y: told.y + reach_m * sin,
-        heading: told.heading + core::f64::consts::PI,
-        ..told
-    })
 }

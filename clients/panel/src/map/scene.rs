@@ -1,8 +1,8 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, MapPoint, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan,
-    no_go_strokes, outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
+    Bounds, Camera, ITEMS_MAX, MapPoint, Orbit, Playout, RoomChoice, SweptGrid, View, dock_contacts,
+    home_plan, no_go_strokes, outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
 };
 use rvac_api::{
     BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, SimulatedPlan,
@@ -234,6 +234,15 @@ impl Scene {
             Ground::Known => self.known_plan.as_ref(),
             Ground::True => self.true_plan.as_ref(),
         }
+    }
+
+    /// The contacts of the dock. A floor plan has their place; the robot's map has that of a robot which stands on the dock.
+    pub(crate) fn dock(&self) -> Option<Pose> {
+        let reported = self.plan()?.dock?;
+        Some(match self.ground {
+            Ground::Known => dock_contacts(reported, self.radius_m),
+            Ground::True => reported,
+        })
     }
 
     /// Doors to be drawn.

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use panel_logic::{PASSES_MAX, ScheduleForm, day_text, floor_elsewhere};
 use rvac_api::{JobPart, Weekday};
 
+use super::clock_field::ClockField;
 use crate::icons::{Icon, icon};
 use crate::job_settings_view::JobSettingsFields;
 use crate::language::words;
@@ -92,15 +93,12 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                     on:input=write(form, |form, typed| form.name = typed)
                 />
             </label>
-            <label class="field">
-                {words().schedule.time}
-                <input
-                    id="schedule-at"
-                    type="time"
-                    prop:value=text(form, |form| form.at.clone())
-                    on:input=write(form, |form, typed| form.at = typed)
-                />
-            </label>
+            <ClockField
+                id="schedule-at"
+                label=words().schedule.time
+                at=Signal::derive(text(form, |form| form.at.clone()))
+                change=Callback::new(move |at| form.update(|form| if let Some(form) = form { form.at = at }))
+            />
             <label class="check">
                 <input
                     id="schedule-once"
@@ -116,6 +114,7 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                     <input
                         id="schedule-date"
                         type="date"
+                        class:empty=is(form, |form| form.date.is_empty())
                         prop:value=text(form, |form| form.date.clone())
                         on:input=write(form, |form, typed| form.date = typed)
                     />

@@ -1,5 +1,6 @@
 //! What starts by itself: the schedules, their next runs, quiet hours, and a form for one of them.
 
+mod clock_field;
 mod form;
 mod quiet;
 mod zone;

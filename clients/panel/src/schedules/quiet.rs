@@ -2,8 +2,10 @@
 
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
+use panel_logic::time_of_day;
 use rvac_api::{QuietHours, RequestBody};
 
+use super::clock_field::ClockField;
 use crate::language::words;
 use crate::store::Store;
 
@@ -15,6 +17,7 @@ pub(super) fn QuietView(store: Store) -> impl IntoView {
         RwSignal::new("22:00".to_owned()),
         RwSignal::new("07:00".to_owned()),
     );
+    let wrong = RwSignal::new(false);
     Effect::new(move |_| {
         if let Some(quiet) = known.get() {
             from.set(quiet.from);
@@ -27,31 +30,19 @@ pub(super) fn QuietView(store: Store) -> impl IntoView {
     };
     let set = move |event: SubmitEvent| {
         event.prevent_default();
-        let quiet = Some(QuietHours {
-            from: from.get_untracked().chars().take(5).collect(),
-            to: to.get_untracked().chars().take(5).collect(),
-        });
-        store.ask(RequestBody::SetQuiet { quiet });
-    };
-    let time = move |id: &'static str, label: &'static str, text: RwSignal<String>| {
-        view! {
-            <label class="field">
-                {label}
-                <input
-                    id=id
-                    type="time"
-                    prop:value=move || text.get()
-                    on:input=move |event| text.set(event_target_value(&event))
-                />
-            </label>
+        let [from, to] = [from, to].map(|typed| typed.with_untracked(|typed| time_of_day(typed)));
+        let quiet = from.zip(to).map(|(from, to)| QuietHours { from, to });
+        wrong.set(quiet.is_none());
+        if quiet.is_some() {
+            store.ask(RequestBody::SetQuiet { quiet });
         }
     };
     view! {
         <h3 id="quiet-title">{words().schedule.quiet}</h3>
         <p class="hint" id="quiet-words">{told}</p>
-        <form class="order-tools quiet" aria-labelledby="quiet-title" on:submit=set>
-            {time("quiet-from", words().schedule.from, from)}
-            {time("quiet-to", words().schedule.to, to)}
+        <form class="order-tools quiet" aria-labelledby="quiet-title" on:input=move |_| wrong.set(false) on:submit=set>
+            <ClockField id="quiet-from" label=words().schedule.from at=from change=Callback::new(move |at| from.set(at)) />
+            <ClockField id="quiet-to" label=words().schedule.to at=to change=Callback::new(move |at| to.set(at)) />
             <button type="submit" class="small" id="set-quiet">{words().schedule.set}</button>
             <button
                 type="button"
@@ -61,6 +52,7 @@ pub(super) fn QuietView(store: Store) -> impl IntoView {
             >
                 {words().schedule.no_quiet}
             </button>
+            <p role="alert" id="quiet-wrong" class="wrong">{move || wrong.get().then_some(words().schedule.need_quiet)}</p>
         </form>
     }
 }

@@ -52,7 +52,7 @@ impl Chip {
 
     pub(super) fn hear_spi_clock(&mut self, number: u8, level: Level, cycle: u64) {
         let input = self.reads_high(spi::PINS[usize::from(number)].input);
-        self.spis[usize::from(number)].hear_clock(level.is_high(), input);
+        self.spis[usize::from(number)].hear_clock(level, input);
         self.settle_spi_pins(number, cycle);
     }
 

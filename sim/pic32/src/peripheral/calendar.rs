@@ -149,7 +149,7 @@ impl Calendar {
         } else {
             (year, false)
         };
-        self.date = year << 24 | month << 16 | day << 8 | (weekday + 1) % 7;
+        self.date = year << 24 | month << 16 | day << 8 | ((weekday + 1) % 7);
     }
 
     fn is_alarm_due(&self) -> bool {

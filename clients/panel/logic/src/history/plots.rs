@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use rvac_api::{RunTrack, TrackReading};
 
+use crate::device_rows::UNMEASURED_A;
 use crate::words::Words;
 
 /// Width and height of a plot in its own units.
@@ -73,6 +74,12 @@ pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
         reading.charge.map(|charge| 100.0 * charge)
     })];
     let battery_a: [(&str, Reading); 1] = [(texts.battery, |reading| reading.battery_a)];
+    // All that a robot reports of a run without a charger, when that has the only meter.
+    let is_metered = |reading: &TrackReading| {
+        let battery_a = reading.battery_a.unwrap_or_default();
+        f64::from(battery_a).abs() >= UNMEASURED_A
+    };
+    let battery_a = &battery_a[..usize::from(track.readings.iter().any(is_metered))];
     let motors: [(&str, Reading); 3] = [
         (texts.left_wheel, |reading| {
             reading.motors_a.map(|[left, _, _]| left)
@@ -92,7 +99,7 @@ pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
     };
     [
         subject(texts.plot_charge, &battery[..], PERCENT),
-        subject(texts.plot_battery, &battery_a[..], ANY),
+        subject(texts.plot_battery, battery_a, ANY),
         subject(texts.plot_motors, &motors[..], ANY),
         subject(texts.plot_link, &link[..], PERCENT),
     ]
@@ -188,6 +195,26 @@ mod tests {
         assert_eq!((plots[0].low.as_str(), plots[0].high.as_str()), ("70.0", "90.0"));
         assert_eq!(plots[1].lines[0].1, "M0.0 30.0L150.0 30.0L300.0 30.0");
         assert!(super::plots(ENGLISH, &RunTrack::default(), 5.0).is_empty());
+    }
+
+    #[test]
+    fn a_battery_whose_current_nothing_measures_has_no_flat_line() {
+        let titles = |battery_a: [f32; 2]| {
+            let reading = |t, battery_a| TrackReading {
+                t,
+                battery_a: Some(battery_a),
+                ..TrackReading::default()
+            };
+            let track = RunTrack {
+                readings: vec![reading(0.0, battery_a[0]), reading(9.0, battery_a[1])],
+                ..RunTrack::default()
+            };
+            let plots = plots(ENGLISH, &track, 9.0);
+            plots.iter().map(|plot| plot.title).collect::<Vec<_>>()
+        };
+        let link = "Bad packets on the cable in %";
+        assert_eq!(titles([0.0, 0.0]), [link]);
+        assert_eq!(titles([0.0, -0.4]), ["Current into the battery in A", link]);
     }
 
     #[test]

@@ -41,12 +41,13 @@ screen! {
         bad_name: "The name must have at most 40 visible characters, and not only digits.",
             "Nimes peab olema kuni 40 nähtavat tähemärki, ja mitte ainult numbrid.";
         need_name: "Give it a name.", "Anna ajakavale nimi.";
-        need_time: "Say at what time it starts.", "Määra kellaaeg, millal see algab.";
+        need_time: "Say at what time it starts, for example 09:30.", "Määra kellaaeg, millal see algab, näiteks 09:30.";
         need_date: "Choose the day on which it starts.", "Vali päev, millal see algab.";
         need_days: "Choose at least one day of the week.", "Vali vähemalt üks nädalapäev.";
         quiet: "Quiet hours", "Vaikne aeg";
         quiet_are[2]: "Nothing starts by itself from {0} to {1}.", "Ajavahemikus {0}–{1} ei alga midagi iseenesest.";
         quiet_none: "There are none.", "Vaikset aega ei ole.";
+        need_quiet: "Say from when to when, for example 22:00 and 07:00.", "Määra, mis ajast mis ajani, näiteks 22:00 ja 07:00.";
         from: "From", "Alates";
         to: "To", "Kuni";
         set: "Set", "Määra";

@@ -160,12 +160,10 @@ impl I2c {
 
     /// Whether it lets go of SDA and of SCL; nothing while it is off.
     pub(crate) fn releases(&self) -> Option<(bool, bool)> {
-        self.is_on().then(|| {
-            (
-                !self.pulls_data && !self.slave_pulls_data,
-                !self.pulls_clock && !self.holds_clock,
-            )
-        })
+        self.is_on().then_some((
+            !self.pulls_data && !self.slave_pulls_data,
+            !self.pulls_clock && !self.holds_clock,
+        ))
     }
 
     pub(crate) fn take_events(&mut self) -> I2cEvents {

@@ -29,16 +29,8 @@ impl Frame {
 }
 
 impl Spi {
-    /// An edge of the clock; a leading one puts data out, a trailing one takes it in.
-    pub(super) fn framed_edge(&mut self, leading: bool, input: bool) {
-        if leading {
-            self.framed_shift();
-        } else {
-            self.framed_sample(input);
-        }
-    }
-
-    fn framed_shift(&mut self) {
+    /// The clock's leading edge puts data out.
+    pub(super) fn framed_shift(&mut self) {
         self.frame = match self.frame {
             Frame::None => self.announce(),
             Frame::Announced | Frame::WithPulse => Frame::Bits,
@@ -62,7 +54,8 @@ impl Spi {
         }
     }
 
-    fn framed_sample(&mut self, input: bool) {
+    /// Its trailing edge takes data in.
+    pub(super) fn framed_sample(&mut self, input: bool) {
         match self.frame {
             Frame::None if self.has(FRAME_INPUT) && !self.has(FRAME_COINCIDES) && self.is_pulsed() => {
                 self.word = Some(self.next_word());

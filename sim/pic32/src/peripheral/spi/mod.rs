@@ -202,8 +202,10 @@ impl Spi {
         let halves = clock.halves;
         if self.has(FRAMED) {
             self.active = !self.active;
-            let leading = self.active;
-            return self.framed_edge(leading, input);
+            return match self.active {
+                true => self.framed_shift(),
+                false => self.framed_sample(input),
+            };
         }
         let last = 2 * u64::from(self.bits());
         let leading = halves % 2 == 1;
@@ -230,17 +232,20 @@ impl Spi {
     }
 
     /// SCK changed, and it is not this side that clocks.
-    pub(crate) fn hear_clock(&mut self, high: bool, input: bool) {
+    pub(crate) fn hear_clock(&mut self, level: Level, input: bool) {
         if !self.is_on() || self.has(MASTER) {
             return;
         }
-        let leading = high != self.has(IDLE_HIGH);
+        let leading = level.is_high() != self.has(IDLE_HIGH);
         if leading == self.active {
             return;
         }
         self.active = leading;
         if self.has(FRAMED) {
-            return self.framed_edge(leading, input);
+            return match leading {
+                true => self.framed_shift(),
+                false => self.framed_sample(input),
+            };
         }
         if !self.is_selected() {
             return;
@@ -364,13 +369,9 @@ impl Spi {
             0 => written = self.write_control(value & CONTROL_WRITABLE, now),
             1 if value & OVERRUN == 0 => self.overrun = false,
             2 if self.is_on() => {
-                if self
-                    .waiting
-                    .replace(value & (u32::MAX >> (32 - self.bits())))
-                    .is_some()
-                {
-                    written = SpiWrite::Replaced;
-                }
+                let word = value & (u32::MAX >> (32 - self.bits()));
+                let before = self.waiting.replace(word);
+                written = before.map_or(SpiWrite::Fine, |_| SpiWrite::Replaced);
             }
             3 => self.divider = value & DIVIDER_WRITABLE,
             _ => {}
