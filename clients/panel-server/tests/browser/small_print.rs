@@ -9,7 +9,8 @@ use crate::owner::{SIZES, ask, resize};
 /// What lies over the map at its edges.
 const EDGES: &str = "'.ground-switch', '.map-tools', '.legend', '.legend-fold', '.scale'";
 /// An order and what it may not lie on. On a phone it is a sheet over the page.
-const FOOT: &str = "'.legend', '.legend-fold', '.scale', '.order-place:not(.fixed) .order-bar'";
+const ORDER: &str =
+    "'.ground-switch', '.map-tools', '.legend', '.legend-fold', '.scale', '.order-place:not(.fixed)'";
 
 /// Pairs of things that are seen and cover each other.
 fn covered(names: &str) -> String {
@@ -74,7 +75,7 @@ async fn what_lies_over_the_map_does_not_cover_each_other_with_long_words() {
     browser
         .until("return document.querySelector('.order-bar') !== null")
         .await;
-    expect_none_covered(browser, "order", FOOT).await;
+    expect_none_covered(browser, "order", ORDER).await;
 }
 
 #[tokio::test]
