@@ -6,7 +6,7 @@ mod board;
 
 use core::sync::atomic::AtomicU32;
 use pic32mx3_hal::gpio::{Input, Pin};
-use pic32mx3_hal::i2c::{Address, Answers, I2c, Slave, SlaveEvent};
+use pic32mx3_hal::i2c::{Address, Answers, I2c, I2cSlave, SlaveEvent};
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, SubPriority, Vector, vector};
 use pic32mx3_hal::{Peripherals, cpu, entry, interrupt, reset};
 
@@ -14,7 +14,7 @@ const ADDRESS: Address = Address::Seven(0x50);
 const SIZE: u8 = 16;
 
 struct Memory {
-    slave: Slave<2, Pin<'A', 3, Input>, Pin<'A', 2, Input>>,
+    slave: I2cSlave<2, Pin<'A', 3, Input>, Pin<'A', 2, Input>>,
     bytes: [u8; SIZE as usize],
     place: u8,
     expects_place: bool,

@@ -8,7 +8,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use embedded_hal::spi::MODE_0;
 use pic32mx3_hal::gpio::{Input, Level, Output, Pin, Port};
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
-use pic32mx3_hal::spi::{Slave, Spi};
+use pic32mx3_hal::spi::{Spi, SpiSlave};
 use pic32mx3_hal::{Peripherals, cpu, entry, interrupt, reset};
 
 type Pins = (
@@ -19,7 +19,7 @@ type Pins = (
 );
 
 struct Echo {
-    slave: Slave<2, u8, Pins>,
+    slave: SpiSlave<2, u8, Pins>,
     lamp: Pin<'D', 1, Output>,
 }
 

@@ -41,13 +41,13 @@ pub enum Step {
 
 /// Why a transfer failed. The bus was given back with a stop, except after a collision or a time-out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
+pub enum I2cError {
     /// Nobody has this address.
     NoDevice,
     /// The device did not acknowledge a byte.
     Refused,
     /// Somebody else drove the bus in this step: a second master, or a device that holds data low. See
-    /// [`Master::recover`].
+    /// [`I2cMaster::recover`].
     Collision(Step),
     /// This step did not end in time: a device holds the clock, or a line has no resistor.
     Timeout(Step),
@@ -55,7 +55,7 @@ pub enum Error {
     Busy,
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for I2cError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoDevice => formatter.write_str("no device acknowledged the address"),
@@ -67,9 +67,9 @@ impl fmt::Display for Error {
     }
 }
 
-impl core::error::Error for Error {}
+impl core::error::Error for I2cError {}
 
-impl embedded_hal::i2c::Error for Error {
+impl embedded_hal::i2c::Error for I2cError {
     fn kind(&self) -> ErrorKind {
         match self {
             Self::NoDevice => ErrorKind::NoAcknowledge(NoAcknowledgeSource::Address),
@@ -83,7 +83,7 @@ impl embedded_hal::i2c::Error for Error {
 
 /// A master.
 #[derive(Debug)]
-pub struct Master<const NUMBER: u8, D, C> {
+pub struct I2cMaster<const NUMBER: u8, D, C> {
     i2c: I2c<NUMBER>,
     data: D,
     clock: C,
@@ -123,7 +123,7 @@ impl BusAddress {
     }
 }
 
-impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D, C> {
+impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> I2cMaster<NUMBER, D, C> {
     pub(super) fn new(i2c: I2c<NUMBER>, (data, clock): (D, C), patience_counts: u32) -> Self {
         Self {
             i2c,
@@ -181,33 +181,33 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
     }
 
     /// Waits until a step has ended, with a limit.
-    fn wait(&self, step: Step, is_over: impl Fn() -> bool) -> Result<(), Error> {
+    fn wait(&self, step: Step, is_over: impl Fn() -> bool) -> Result<(), I2cError> {
         let begun = core_timer::count();
         while !is_over() {
             if core_timer::count().wrapping_sub(begun) > self.patience_counts {
-                return Err(Error::Timeout(step));
+                return Err(I2cError::Timeout(step));
             }
         }
         if i2c_status(NUMBER).has(COLLISION) {
             i2c_status(NUMBER).clear(COLLISION);
-            return Err(Error::Collision(step));
+            return Err(I2cError::Collision(step));
         }
         Ok(())
     }
 
     /// One step that a bit of I2CxCON begins, and that the chip clears at its end.
-    fn step(&mut self, bit: u32, step: Step) -> Result<(), Error> {
+    fn step(&mut self, bit: u32, step: Step) -> Result<(), I2cError> {
         i2c_control(NUMBER).set(bit);
         self.wait(step, || i2c_control(NUMBER).read() & STEPS == 0)
     }
 
     /// Sends a byte; whether it was acknowledged.
-    fn send(&mut self, byte: u8, step: Step) -> Result<bool, Error> {
+    fn send(&mut self, byte: u8, step: Step) -> Result<bool, I2cError> {
         // A store that an interrupt cuts in two may be done twice (errata of the family, as told by others).
         cpu::without_interrupts(|| i2c_transmit(NUMBER).write(u32::from(byte)));
         if i2c_status(NUMBER).has(WRITE_COLLISION) {
             i2c_status(NUMBER).clear(WRITE_COLLISION);
-            return Err(Error::Busy);
+            return Err(I2cError::Busy);
         }
         self.wait(step, || {
             i2c_status(NUMBER).read() & (TRANSMITS | TRANSMIT_FULL) == 0
@@ -216,7 +216,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
     }
 
     /// Receives a byte and acknowledges it unless it is the last.
-    fn receive(&mut self, is_last: bool) -> Result<u8, Error> {
+    fn receive(&mut self, is_last: bool) -> Result<u8, I2cError> {
         self.step(RECEIVE, Step::Receive)?;
         let byte = i2c_receive(NUMBER).read() as u8;
         if is_last {
@@ -229,7 +229,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
     }
 
     /// Addresses the device in a direction, after a start.
-    fn address(&mut self, address: BusAddress, direction: Direction, restarts: bool) -> Result<(), Error> {
+    fn address(&mut self, address: BusAddress, direction: Direction, restarts: bool) -> Result<(), I2cError> {
         let reads = direction == Direction::Read;
         let acknowledged = match address.second() {
             // Reading with ten bits: first both bytes for writing, then the first one anew.
@@ -243,10 +243,10 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
             }
             _ => self.send(address.first(direction), Step::Address)?,
         };
-        acknowledged.then_some(()).ok_or(Error::NoDevice)
+        acknowledged.then_some(()).ok_or(I2cError::NoDevice)
     }
 
-    fn operate(&mut self, address: BusAddress, operations: &mut [Operation<'_>]) -> Result<(), Error> {
+    fn operate(&mut self, address: BusAddress, operations: &mut [Operation<'_>]) -> Result<(), I2cError> {
         let mut present = None;
         let count = operations.len();
         for index in 0..count {
@@ -270,7 +270,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
                 Operation::Write(bytes) => {
                     for byte in bytes.iter() {
                         if !self.send(*byte, Step::Send)? {
-                            return Err(Error::Refused);
+                            return Err(I2cError::Refused);
                         }
                     }
                 }
@@ -285,7 +285,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
         Ok(())
     }
 
-    fn transfer(&mut self, address: BusAddress, operations: &mut [Operation<'_>]) -> Result<(), Error> {
+    fn transfer(&mut self, address: BusAddress, operations: &mut [Operation<'_>]) -> Result<(), I2cError> {
         if operations.is_empty() {
             return Ok(());
         }
@@ -293,7 +293,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
         match self.operate(address, operations) {
             Ok(()) => self.step(STOP, Step::Stop),
             // The bus is not ours.
-            Err(error @ (Error::Collision(_) | Error::Timeout(_))) => {
+            Err(error @ (I2cError::Collision(_) | I2cError::Timeout(_))) => {
                 i2c_control(NUMBER).clear(ON);
                 i2c_control(NUMBER).set(ON);
                 Err(error)
@@ -318,29 +318,29 @@ fn is_high(line: (Port, u16)) -> bool {
     line.0.read() & line.1 != 0
 }
 
-impl<const NUMBER: u8, D, C> ErrorType for Master<NUMBER, D, C> {
-    type Error = Error;
+impl<const NUMBER: u8, D, C> ErrorType for I2cMaster<NUMBER, D, C> {
+    type Error = I2cError;
 }
 
 impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> embedded_hal::i2c::I2c<SevenBitAddress>
-    for Master<NUMBER, D, C>
+    for I2cMaster<NUMBER, D, C>
 {
-    fn transaction(&mut self, address: u8, operations: &mut [Operation<'_>]) -> Result<(), Error> {
+    fn transaction(&mut self, address: u8, operations: &mut [Operation<'_>]) -> Result<(), I2cError> {
         self.transfer(BusAddress::Seven(address), operations)
     }
 }
 
 impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> embedded_hal::i2c::I2c<TenBitAddress>
-    for Master<NUMBER, D, C>
+    for I2cMaster<NUMBER, D, C>
 {
-    fn transaction(&mut self, address: u16, operations: &mut [Operation<'_>]) -> Result<(), Error> {
+    fn transaction(&mut self, address: u16, operations: &mut [Operation<'_>]) -> Result<(), I2cError> {
         self.transfer(BusAddress::Ten(address), operations)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{BusAddress, Direction, Error, Step};
+    use super::{BusAddress, Direction, I2cError, Step};
     use crate::gpio::Pins;
     use crate::i2c::{I2c, Speed};
     use crate::register::map::{i2c_control, i2c_divider, i2c_status, i2c_transmit};
@@ -380,7 +380,7 @@ mod tests {
             (i2c_control(1).read(), i2c_divider(1).read()),
             (1 << 15 | 1 << 12, 90)
         );
-        assert_eq!(master.write(0x42_u8, &[1]), Err(Error::Timeout(Step::Start)));
+        assert_eq!(master.write(0x42_u8, &[1]), Err(I2cError::Timeout(Step::Start)));
         assert_eq!(i2c_control(1).read() & 0x1F, 1, "SEN was set");
         let (i2c, lines) = master.release();
         assert_eq!(i2c_control(1).read(), 1 << 12);
@@ -392,13 +392,13 @@ mod tests {
         assert_eq!(master.send(0xA5, Step::Send), Ok(false), "not acknowledged");
         assert_eq!(i2c_transmit(1).read(), 0xA5);
         i2c_status(1).write(1 << 7);
-        assert_eq!(master.send(0xA5, Step::Send), Err(Error::Busy));
+        assert_eq!(master.send(0xA5, Step::Send), Err(I2cError::Busy));
         i2c_status(1).write(1 << 14);
-        assert_eq!(master.send(0xA5, Step::Send), Err(Error::Timeout(Step::Send)));
+        assert_eq!(master.send(0xA5, Step::Send), Err(I2cError::Timeout(Step::Send)));
         i2c_status(1).write(1 << 10);
         assert_eq!(
             master.send(0xA5, Step::Address),
-            Err(Error::Collision(Step::Address))
+            Err(I2cError::Collision(Step::Address))
         );
         assert_eq!(i2c_status(1).read(), 0, "forgotten");
     }

@@ -1,7 +1,7 @@
 //! I2C 1 and 2: master and slave (section 2 of the peripherals).
 //!
-//! Both lines need resistors to the supply; the chip has none. A [`Master`] is `embedded_hal::i2c::I2c` and waits for each step,
-//! with a limit, because a slave may hold the clock as long as it likes. A [`Slave`] is told of each byte by the vectors
+//! Both lines need resistors to the supply; the chip has none. A [`I2cMaster`] is `embedded_hal::i2c::I2c` and waits for each step,
+//! with a limit, because a slave may hold the clock as long as it likes. A [`I2cSlave`] is told of each byte by the vectors
 //! [`I2C_1`](crate::interrupt::vector::I2C_1) and [`I2C_2`](crate::interrupt::vector::I2C_2), and holds the clock until it was served.
 //!
 //! `unverified`: the delay of the pulse gobbler (104 ns) in the divider, and what reserved addresses do. The chip's errata are said to
@@ -10,8 +10,8 @@
 mod master;
 mod slave;
 
-pub use master::{Error, Master, Step};
-pub use slave::{Address, AddressError, Answers, Slave, SlaveEvent};
+pub use master::{I2cError, I2cMaster, Step};
+pub use slave::{Address, AddressError, Answers, I2cSlave, SlaveEvent};
 
 use crate::gpio::{Input, Pin, Port};
 use crate::interrupt::Source;
@@ -131,7 +131,7 @@ impl<const NUMBER: u8> I2c<NUMBER> {
     }
 
     /// Starts it as master. `peripheral_hz` is PBCLK; a step that takes longer than `patience_counts` of the core timer ends with
-    /// [`Error::Timeout`].
+    /// [`I2cError::Timeout`].
     ///
     /// # Errors
     /// [`SpeedError`] when the divider cannot make this speed.
@@ -140,14 +140,14 @@ impl<const NUMBER: u8> I2c<NUMBER> {
         pins: (D, C),
         (speed, peripheral_hz): (Speed, u32),
         patience_counts: u32,
-    ) -> Result<Master<NUMBER, D, C>, SpeedError> {
+    ) -> Result<I2cMaster<NUMBER, D, C>, SpeedError> {
         let divider = divider(speed, peripheral_hz)?;
         stop::<NUMBER>();
         i2c_divider(NUMBER).write(divider);
         i2c_status(NUMBER).write(0);
         i2c_control(NUMBER).write(RELEASE | speed.edges());
         i2c_control(NUMBER).set(ON);
-        Ok(Master::new(self, pins, patience_counts))
+        Ok(I2cMaster::new(self, pins, patience_counts))
     }
 
     /// Starts it as slave.
@@ -159,7 +159,7 @@ impl<const NUMBER: u8> I2c<NUMBER> {
         pins: (D, C),
         address: Address,
         answers: Answers,
-    ) -> Result<Slave<NUMBER, D, C>, AddressError> {
+    ) -> Result<I2cSlave<NUMBER, D, C>, AddressError> {
         let (address, ten_bits) = address.bits()?;
         stop::<NUMBER>();
         i2c_address(NUMBER).write(address);
@@ -169,7 +169,7 @@ impl<const NUMBER: u8> I2c<NUMBER> {
         i2c_status(NUMBER).write(0);
         i2c_control(NUMBER).write(RELEASE | ten_bits | answers.bits());
         i2c_control(NUMBER).set(ON);
-        Ok(Slave::new(self, pins))
+        Ok(I2cSlave::new(self, pins))
     }
 }
 

@@ -76,7 +76,7 @@ pub enum SlaveEvent {
     Called,
     /// A byte came.
     Received(u8),
-    /// The master wants a byte, the first one after it addressed us (`true`) or a further one: [`Slave::answer`].
+    /// The master wants a byte, the first one after it addressed us (`true`) or a further one: [`I2cSlave::answer`].
     Wanted {
         /// It has just begun to read.
         is_first: bool,
@@ -87,12 +87,12 @@ pub enum SlaveEvent {
 
 /// A slave.
 #[derive(Debug)]
-pub struct Slave<const NUMBER: u8, D, C> {
+pub struct I2cSlave<const NUMBER: u8, D, C> {
     i2c: I2c<NUMBER>,
     pins: (D, C),
 }
 
-impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Slave<NUMBER, D, C> {
+impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> I2cSlave<NUMBER, D, C> {
     pub(super) const fn new(i2c: I2c<NUMBER>, pins: (D, C)) -> Self {
         Self { i2c, pins }
     }

@@ -1,8 +1,8 @@
 //! Framed SPI: a pulse on SS announces each word, and the clock does not stop. For codecs and for chips among each other.
 
 use super::{
-    ClockInput, ClockOutput, DataInput, DataOutput, Error, FrequencyError, MASTER, SelectInput, SelectOutput,
-    Spi, Word, divider, start, stop, try_receive, try_send,
+    ClockInput, ClockOutput, DataInput, DataOutput, FrequencyError, MASTER, SelectInput, SelectOutput, Spi,
+    SpiError, Word, divider, start, stop, try_receive, try_send,
 };
 use crate::register::map::spi_divider;
 use core::marker::PhantomData;
@@ -146,8 +146,8 @@ impl<const NUMBER: u8, W: Word, P> Framed<NUMBER, W, P> {
     /// The word that came, or that one was lost; `None` when nothing came.
     ///
     /// # Errors
-    /// [`Error::Overrun`] when a word was not taken before the next.
-    pub fn try_receive(&mut self) -> Option<Result<W, Error>> {
+    /// [`SpiError::Overrun`] when a word was not taken before the next.
+    pub fn try_receive(&mut self) -> Option<Result<W, SpiError>> {
         try_receive::<NUMBER, W>()
     }
 

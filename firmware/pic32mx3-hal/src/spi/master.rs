@@ -1,19 +1,19 @@
 //! The master: `embedded_hal::spi::SpiBus`.
 
-use super::{BUSY, Error, Spi, Word, stop, try_receive, try_send};
+use super::{BUSY, Spi, SpiError, Word, stop, try_receive, try_send};
 use crate::register::map::spi_status;
 use core::marker::PhantomData;
 use embedded_hal::spi::{ErrorType, SpiBus};
 
 /// A master that sends words of one length, `u8`, `u16` or `u32`.
 #[derive(Debug)]
-pub struct Master<const NUMBER: u8, W, P> {
+pub struct SpiMaster<const NUMBER: u8, W, P> {
     spi: Spi<NUMBER>,
     pins: P,
     word: PhantomData<fn(W)>,
 }
 
-impl<const NUMBER: u8, W: Word, P> Master<NUMBER, W, P> {
+impl<const NUMBER: u8, W: Word, P> SpiMaster<NUMBER, W, P> {
     pub(super) const fn new(spi: Spi<NUMBER>, pins: P) -> Self {
         let word = PhantomData;
         Self { spi, pins, word }
@@ -22,8 +22,8 @@ impl<const NUMBER: u8, W: Word, P> Master<NUMBER, W, P> {
     /// Sends one word and returns the one that came for it.
     ///
     /// # Errors
-    /// [`Error::Overrun`] when a word had come before that nobody took.
-    pub fn exchange(&mut self, word: W) -> Result<W, Error> {
+    /// [`SpiError::Overrun`] when a word had come before that nobody took.
+    pub fn exchange(&mut self, word: W) -> Result<W, SpiError> {
         while !try_send::<NUMBER, W>(word) {}
         loop {
             if let Some(received) = try_receive::<NUMBER, W>() {
@@ -46,20 +46,20 @@ impl<const NUMBER: u8, W: Word, P> Master<NUMBER, W, P> {
     }
 }
 
-impl<const NUMBER: u8, W, P> ErrorType for Master<NUMBER, W, P> {
-    type Error = Error;
+impl<const NUMBER: u8, W, P> ErrorType for SpiMaster<NUMBER, W, P> {
+    type Error = SpiError;
 }
 
-impl<const NUMBER: u8, W: Word, P> SpiBus<W> for Master<NUMBER, W, P> {
+impl<const NUMBER: u8, W: Word, P> SpiBus<W> for SpiMaster<NUMBER, W, P> {
     /// Sends zeros meanwhile.
-    fn read(&mut self, words: &mut [W]) -> Result<(), Error> {
+    fn read(&mut self, words: &mut [W]) -> Result<(), SpiError> {
         for word in words {
             *word = self.exchange(W::default())?;
         }
         Ok(())
     }
 
-    fn write(&mut self, words: &[W]) -> Result<(), Error> {
+    fn write(&mut self, words: &[W]) -> Result<(), SpiError> {
         for word in words {
             self.exchange(*word)?;
         }
@@ -67,7 +67,7 @@ impl<const NUMBER: u8, W: Word, P> SpiBus<W> for Master<NUMBER, W, P> {
     }
 
     /// The shorter side is filled with zeros, or what comes for it is dropped.
-    fn transfer(&mut self, read: &mut [W], write: &[W]) -> Result<(), Error> {
+    fn transfer(&mut self, read: &mut [W], write: &[W]) -> Result<(), SpiError> {
         for index in 0..read.len().max(write.len()) {
             let came = self.exchange(write.get(index).copied().unwrap_or_default())?;
             if let Some(place) = read.get_mut(index) {
@@ -77,14 +77,14 @@ impl<const NUMBER: u8, W: Word, P> SpiBus<W> for Master<NUMBER, W, P> {
         Ok(())
     }
 
-    fn transfer_in_place(&mut self, words: &mut [W]) -> Result<(), Error> {
+    fn transfer_in_place(&mut self, words: &mut [W]) -> Result<(), SpiError> {
         for word in words {
             *word = self.exchange(*word)?;
         }
         Ok(())
     }
 
-    fn flush(&mut self) -> Result<(), Error> {
+    fn flush(&mut self) -> Result<(), SpiError> {
         while !self.is_idle() {}
         Ok(())
     }
@@ -95,7 +95,7 @@ mod tests {
     use crate::gpio::{Input, Output, Pin};
     use crate::interrupt::Source;
     use crate::register::map::{spi_buffer, spi_control, spi_divider, spi_status};
-    use crate::spi::{Error, Spi};
+    use crate::spi::{Spi, SpiError};
     use embedded_hal::spi::{MODE_0, MODE_3, SpiBus};
 
     type Pins = (Pin<'F', 6, Output>, Pin<'F', 8, Output>, Pin<'F', 7, Input>);
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(master.transfer(&mut words, &[0x5A, 0xC3]), Ok(()));
         assert_eq!(words, [0x5A, 0xC3, 0], "the shorter side is filled with zeros");
         spi_status(1).write(1 << 3 | 1 << 6);
-        assert_eq!(master.write(&[1]), Err(Error::Overrun));
+        assert_eq!(master.write(&[1]), Err(SpiError::Overrun));
         assert_eq!(spi_status(1).read(), 1 << 3, "forgotten");
         spi_status(1).write(1 << 11);
         assert!(!master.is_idle());

@@ -1,7 +1,7 @@
 //! SPI 1 and 2: master, slave, framed (section 1 of the peripherals).
 //!
-//! There is no queue: one word waits while one moves. A [`Master`] exchanges word by word and so loses none, however long
-//! interrupts hold it up. A [`Slave`] must be served within a word's time, by handlers of the vectors
+//! There is no queue: one word waits while one moves. A [`SpiMaster`] exchanges word by word and so loses none, however long
+//! interrupts hold it up. A [`SpiSlave`] must be served within a word's time, by handlers of the vectors
 //! [`SPI_1`](crate::interrupt::vector::SPI_1) and [`SPI_2`](crate::interrupt::vector::SPI_2).
 //!
 //! `unverified`: what a slave sends that was not loaded in time, the highest clock of a slave, and where exactly a frame's
@@ -12,8 +12,8 @@ mod master;
 mod slave;
 
 pub use framed::{ClockRole, Follows, FramePulse, FrameRole, Framed, Leads, PulseLevel, PulsePlace};
-pub use master::Master;
-pub use slave::Slave;
+pub use master::SpiMaster;
+pub use slave::SpiSlave;
 
 use crate::cpu;
 use crate::gpio::{Input, Output, Pin};
@@ -45,20 +45,20 @@ pub struct Spi<const NUMBER: u8>(());
 
 /// What a receiver can complain of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
+pub enum SpiError {
     /// A word came before the one before it was taken; it is lost.
     Overrun,
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for SpiError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str("a word was lost because the one before it was not taken in time")
     }
 }
 
-impl core::error::Error for Error {}
+impl core::error::Error for SpiError {}
 
-impl embedded_hal::spi::Error for Error {
+impl embedded_hal::spi::Error for SpiError {
     fn kind(&self) -> embedded_hal::spi::ErrorKind {
         embedded_hal::spi::ErrorKind::Overrun
     }
@@ -205,7 +205,7 @@ impl<const NUMBER: u8> Spi<NUMBER> {
         pins: (C, O, I),
         mode: Mode,
         (wanted_hz, peripheral_hz): (u32, u32),
-    ) -> Result<Master<NUMBER, W, (C, O, I)>, FrequencyError>
+    ) -> Result<SpiMaster<NUMBER, W, (C, O, I)>, FrequencyError>
     where
         C: ClockOutput<NUMBER>,
         O: DataOutput<NUMBER>,
@@ -213,7 +213,7 @@ impl<const NUMBER: u8> Spi<NUMBER> {
     {
         let divider = divider(wanted_hz, peripheral_hz)?;
         start::<NUMBER>(divider, MASTER | mode_bits(mode) | W::WIDTH);
-        Ok(Master::new(self, pins))
+        Ok(SpiMaster::new(self, pins))
     }
 
     /// Starts it as slave that the pin SS selects, at low level.
@@ -221,7 +221,7 @@ impl<const NUMBER: u8> Spi<NUMBER> {
         self,
         pins: (C, O, I, S),
         mode: Mode,
-    ) -> Slave<NUMBER, W, (C, O, I, S)>
+    ) -> SpiSlave<NUMBER, W, (C, O, I, S)>
     where
         C: ClockInput<NUMBER>,
         O: DataOutput<NUMBER>,
@@ -229,7 +229,7 @@ impl<const NUMBER: u8> Spi<NUMBER> {
         S: SelectInput<NUMBER>,
     {
         start::<NUMBER>(0, SELECT | mode_bits(mode) | W::WIDTH);
-        Slave::new(self, pins)
+        SpiSlave::new(self, pins)
     }
 }
 
@@ -267,13 +267,13 @@ fn try_send<const NUMBER: u8, W: Word>(word: W) -> bool {
 
 /// The word that came, or that one was lost since.
 #[inline(always)]
-fn try_receive<const NUMBER: u8, W: Word>() -> Option<Result<W, Error>> {
+fn try_receive<const NUMBER: u8, W: Word>() -> Option<Result<W, SpiError>> {
     let status = spi_status(NUMBER).read();
     if status & OVERRUN != 0 {
         // The word that came first is dropped with those that were lost: what follows is whole again.
         let _ = spi_buffer(NUMBER).read();
         spi_status(NUMBER).clear(OVERRUN);
-        return Some(Err(Error::Overrun));
+        return Some(Err(SpiError::Overrun));
     }
     (status & RECEIVED != 0).then(|| Ok(W::from_register(spi_buffer(NUMBER).read())))
 }

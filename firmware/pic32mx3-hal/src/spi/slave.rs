@@ -1,19 +1,19 @@
 //! The slave: words are given before the master clocks, and taken after.
 
-use super::{BUSY, Error, ON, ROOM, Spi, Word, stop, try_receive, try_send};
+use super::{BUSY, ON, ROOM, Spi, SpiError, Word, stop, try_receive, try_send};
 use crate::register::map::{spi_control, spi_status};
 use core::marker::PhantomData;
 
 /// A slave that the pin SS selects. Give it the first word before the master begins, and each further one while the word
 /// before it moves.
 #[derive(Debug)]
-pub struct Slave<const NUMBER: u8, W, P> {
+pub struct SpiSlave<const NUMBER: u8, W, P> {
     spi: Spi<NUMBER>,
     pins: P,
     word: PhantomData<fn(W)>,
 }
 
-impl<const NUMBER: u8, W: Word, P> Slave<NUMBER, W, P> {
+impl<const NUMBER: u8, W: Word, P> SpiSlave<NUMBER, W, P> {
     pub(super) const fn new(spi: Spi<NUMBER>, pins: P) -> Self {
         let word = PhantomData;
         Self { spi, pins, word }
@@ -36,9 +36,9 @@ impl<const NUMBER: u8, W: Word, P> Slave<NUMBER, W, P> {
     /// [`Spi::RECEIVED`] and [`Spi::FAULT`].
     ///
     /// # Errors
-    /// [`Error::Overrun`]: the words of this transfer are no longer in step.
+    /// [`SpiError::Overrun`]: the words of this transfer are no longer in step.
     #[inline(always)]
-    pub fn try_receive(&mut self) -> Option<Result<W, Error>> {
+    pub fn try_receive(&mut self) -> Option<Result<W, SpiError>> {
         try_receive::<NUMBER, W>()
     }
 
@@ -73,7 +73,7 @@ impl<const NUMBER: u8, W: Word, P> Slave<NUMBER, W, P> {
 mod tests {
     use crate::gpio::{Level, Pins};
     use crate::register::map::{spi_buffer, spi_control, spi_divider, spi_status};
-    use crate::spi::{Error, Follows, FramePulse, Leads, PulseLevel, PulsePlace, Spi};
+    use crate::spi::{Follows, FramePulse, Leads, PulseLevel, PulsePlace, Spi, SpiError};
     use embedded_hal::spi::{MODE_0, MODE_1, Polarity};
 
     /// The slave's and the framed bits of SPIxCON, and what the status says, on SPI 2.
@@ -97,7 +97,7 @@ mod tests {
         spi_status(2).write(1);
         assert_eq!(slave.try_receive(), Some(Ok(0xBEEF)));
         spi_status(2).write(1 | 1 << 6);
-        assert_eq!(slave.try_receive(), Some(Err(Error::Overrun)));
+        assert_eq!(slave.try_receive(), Some(Err(SpiError::Overrun)));
         slave.restart();
         assert_eq!(spi_control(2).read() & 1 << 15, 1 << 15);
         let (spi, (clock, output, input, select)) = slave.release();
