@@ -28,7 +28,7 @@ mod world;
 
 pub use digest::Fnv1a;
 pub use home::Home;
-pub use linux_board::{Beacons, BoardGyro, Measured};
+pub use linux_board::{Beacons, BoardGyro, LongRanges, Measured};
 pub use load::{HomeError, HomeNotice};
 pub use model::{
     BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel,

@@ -1,29 +1,29 @@
 //! An extended Kalman filter over the pose, the errors of the wheels and the positions of the beacons.
 
-use super::hop::Hop;
+use super::beacon::{BEACON, Beacon};
+use super::hop::{Hop, HopRange};
 use super::located_range::LocatedRange;
 use super::multilateration::{MeasuredRange, locate_beacon};
-use super::parameters::{FILTER, RANGE};
-use super::range_prediction::RangePrediction;
-use super::weight::weight;
+use super::parameters::{FILTER, RANGE, SLIP};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
-use crate::model::observation::BeaconRange;
 use crate::model::pose_estimate::PoseEstimate;
 
 /// Parameters of the wheels' errors: curvature of a straight path in radians a metre, scale error of turns, scale error of
 /// distances, both relative.
-pub(super) const WHEELS: usize = 3;
+pub(super) const ERRORS: usize = 5;
 /// Numbers of the pose.
 const POSE: usize = 3;
+/// Index of the antenna's place in the state.
+const ANTENNA: usize = POSE + ERRORS - 2;
 /// Index of the first beacon in the state.
-const BEACONS: usize = POSE + WHEELS;
+const BEACONS: usize = POSE + ERRORS;
 
 /// Result of the batch initialization.
 #[derive(Debug)]
 pub(super) struct InitialState<'batch> {
     pub(super) pose: Pose2,
-    pub(super) wheels: [f64; WHEELS],
-    pub(super) beacons: &'batch [(u16, Point2)],
+    pub(super) errors: [f64; ERRORS],
+    pub(super) beacons: &'batch [Beacon],
     /// Of pose, wheels and beacons, in this order.
     pub(super) covariance: Vec<Vec<f64>>,
 }
@@ -32,9 +32,11 @@ pub(super) struct InitialState<'batch> {
 #[derive(Clone, Debug)]
 pub(super) struct BeaconFilter {
     pose: Pose2,
-    wheels: [f64; WHEELS],
-    beacons: Vec<(u16, Point2)>,
+    errors: [f64; ERRORS],
+    beacons: Vec<Beacon>,
     covariance: Vec<Vec<f64>>,
+    /// Share of the latest ranges that the estimate does not explain.
+    unexplained: f64,
     /// Ranges to beacons that are not located yet.
     late: Vec<(u16, MeasuredRange)>,
 }
@@ -43,24 +45,26 @@ impl BeaconFilter {
     pub(super) fn begin(start: InitialState<'_>) -> Self {
         Self {
             pose: start.pose,
-            wheels: start.wheels,
+            errors: start.errors,
             beacons: start.beacons.to_vec(),
             covariance: start.covariance,
+            unexplained: 0.0,
             late: Vec::new(),
         }
     }
 
-    /// Drops the beacons whose positions have a larger standard deviation than this, metres.
+    /// Drops the beacons whose positions, seen from the robot, have a larger standard deviation than this, metres. How the robot and
+    /// all beacons together lie to the start of the path does not count: it harms no map that is drawn from now on.
     pub(super) fn forget_beyond(&mut self, sigma_m: f64) {
         let mut number = 0;
         while number < self.beacons.len() {
-            let at = BEACONS + 2 * number;
-            if self.widest_m(at) <= sigma_m {
+            let at = BEACONS + BEACON * number;
+            if self.seen_from_pose().widest_m(at) <= sigma_m {
                 number += 1;
                 continue;
             }
             self.beacons.remove(number);
-            let is_kept = |place: usize| place != at && place != at + 1;
+            let is_kept = |place: usize| !(at..at + BEACON).contains(&place);
             let mut place = 0..;
             self.covariance.retain(|_| place.next().is_some_and(is_kept));
             for row in &mut self.covariance {
@@ -70,17 +74,43 @@ impl BeaconFilter {
         }
     }
 
+    /// The same filter with a pose that is known exactly.
+    fn seen_from_pose(&self) -> Self {
+        let mut known = self.clone();
+        for place in 0..POSE {
+            let own = known.at(place, place);
+            let gains = known.covariance.get(place).cloned().unwrap_or_default();
+            if own > 0.0 {
+                known.shrink(&gains, own);
+            }
+        }
+        known
+    }
+
+    /// Takes away what a measurement with these gains and this variance tells.
+    fn shrink(&mut self, gains: &[f64], variance: f64) {
+        for (row, gain) in self.covariance.iter_mut().zip(gains) {
+            for (value, other) in row.iter_mut().zip(gains) {
+                *value -= gain * other / variance;
+            }
+        }
+    }
+
     /// Predicts the motion of a hop and updates with its ranges.
     pub(super) fn take(&mut self, hop: &Hop) {
         self.advance(hop);
+        self.watch_slip(hop);
         for range in &hop.ranges {
-            let known = self.beacons.iter().position(|beacon| beacon.0 == range.beacon);
+            let known = self
+                .beacons
+                .iter()
+                .position(|beacon| beacon.number == range.beacon);
             match known {
-                Some(beacon) => self.compare(hop, range, beacon),
+                Some(beacon) => self.compare(range, beacon),
                 None => self.keep(
                     range.beacon,
                     MeasuredRange {
-                        from: self.pose.transform(hop.middle()),
+                        from: self.pose.transform(range.at),
                         range_m: range.range_m,
                     },
                 ),
@@ -88,8 +118,36 @@ impl BeaconFilter {
         }
     }
 
+    /// When hop after hop most ranges contradict the estimate, the wheels have slipped or something pushed the robot: single wrong
+    /// ranges do not agree for so long. Then the pose may be far off, so that the next ranges count fully.
+    fn watch_slip(&mut self, hop: &Hop) {
+        for range in &hop.ranges {
+            let Some(number) = self
+                .beacons
+                .iter()
+                .position(|beacon| beacon.number == range.beacon)
+            else {
+                continue;
+            };
+            let Some(known) = self.beacons.get(number) else {
+                continue;
+            };
+            let innovation = known.innovation(self.pose, self.errors, range);
+            let at = BEACONS + BEACON * number;
+            let own_m2 = libm::pow(self.widest_m(0), 2.0) + libm::pow(self.widest_m(at), 2.0);
+            let is_far = innovation.off_m.abs() > SLIP.far_sigmas * libm::sqrt(own_m2 + innovation.noise_m2);
+            self.unexplained += SLIP.share * (f64::from(u8::from(is_far)) - self.unexplained);
+        }
+        if self.unexplained > SLIP.unexplained_max {
+            self.unexplained = 0.0;
+            self.grow(0, 0, SLIP.sigma_m * SLIP.sigma_m);
+            self.grow(1, 1, SLIP.sigma_m * SLIP.sigma_m);
+            self.grow(2, 2, SLIP.sigma_rad * SLIP.sigma_rad);
+        }
+    }
+
     fn advance(&mut self, hop: &Hop) {
-        let step = hop.corrected(self.wheels);
+        let step = hop.corrected(self.errors);
         let (sin, cos) = libm::sincos(self.pose.heading_rad);
         let (dx, dy) = (cos * step.x_m - sin * step.y_m, sin * step.x_m + cos * step.y_m);
         let (by_bend, by_scale) = if hop.by_gyro {
@@ -140,7 +198,7 @@ impl BeaconFilter {
             self.grow(place, 2, half_rad2 * turned);
             self.grow(2, place, half_rad2 * turned);
         }
-        for (number, walk) in FILTER.wheels_walk.into_iter().enumerate() {
+        for (number, walk) in FILTER.errors_walk.into_iter().enumerate() {
             self.grow(POSE + number, POSE + number, walk * walk * hop.length_m);
         }
     }
@@ -188,18 +246,22 @@ impl BeaconFilter {
             .unwrap_or(0.0)
     }
 
-    fn compare(&mut self, hop: &Hop, range: &BeaconRange, beacon: usize) {
-        let Some((_, place)) = self.beacons.get(beacon).copied() else {
+    fn compare(&mut self, range: &HopRange, beacon: usize) {
+        let Some(known) = self.beacons.get(beacon).copied() else {
             return;
         };
-        let predicted = RangePrediction::new(self.pose, hop.middle(), place);
-        let at = BEACONS + 2 * beacon;
+        let innovation = known.innovation(self.pose, self.errors, range);
+        let predicted = innovation.predicted;
+        let at = BEACONS + BEACON * beacon;
         let by = [
             (0, predicted.by_x),
             (1, predicted.by_y),
             (2, predicted.by_heading),
+            (ANTENNA, predicted.by_antenna[0]),
+            (ANTENNA + 1, predicted.by_antenna[1]),
             (at, -predicted.by_x),
             (at + 1, -predicted.by_y),
+            (at + 2, 1.0),
         ];
         let gains: Vec<f64> = self
             .covariance
@@ -214,35 +276,25 @@ impl BeaconFilter {
             .iter()
             .map(|(place, by)| gains.get(*place).copied().unwrap_or(0.0) * by)
             .sum();
-        let off_m = range.range_m - predicted.away_m;
-        let noise_m2 = range.sigma_m * range.sigma_m;
-        let trust = weight(off_m / libm::sqrt(own_m2 + noise_m2));
-        let variance_m2 = own_m2 + noise_m2 / trust;
-        self.correct(&gains, off_m / variance_m2);
-        for (row, gain) in self.covariance.iter_mut().zip(&gains) {
-            for (value, other) in row.iter_mut().zip(&gains) {
-                *value -= gain * other / variance_m2;
-            }
-        }
+        let variance_m2 = own_m2 + innovation.noise_m2 / innovation.weight(own_m2);
+        self.correct(&gains, innovation.off_m / variance_m2);
+        self.shrink(&gains, variance_m2);
     }
 
     fn correct(&mut self, gains: &[f64], by: f64) {
         let (own, beacons) = gains.split_at(gains.len().min(BEACONS));
-        if let [x, y, heading, wheels @ ..] = own {
+        if let [x, y, heading, errors @ ..] = own {
             self.pose = Pose2 {
                 x_m: self.pose.x_m + x * by,
                 y_m: self.pose.y_m + y * by,
                 heading_rad: normalize_rad(self.pose.heading_rad + heading * by),
             };
-            for (value, gain) in self.wheels.iter_mut().zip(wheels) {
+            for (value, gain) in self.errors.iter_mut().zip(errors) {
                 *value += gain * by;
             }
         }
-        for ((_, place), gain) in self.beacons.iter_mut().zip(beacons.chunks_exact(2)) {
-            if let [x, y] = gain {
-                place.x_m += x * by;
-                place.y_m += y * by;
-            }
+        for (beacon, gain) in self.beacons.iter_mut().zip(beacons.chunks_exact(BEACON)) {
+            beacon.add(gain, by);
         }
     }
 
@@ -269,19 +321,21 @@ impl BeaconFilter {
 
     /// Adds a beacon to the state. Its position has the error of the pose and an error of its own.
     fn add_beacon(&mut self, beacon: u16, place: Point2) {
-        self.beacons.push((beacon, place));
+        self.beacons.push(Beacon::new(beacon, place));
         for row in &mut self.covariance {
             let (x, y) = (row.first().copied(), row.get(1).copied());
-            row.extend([x.unwrap_or(0.0), y.unwrap_or(0.0)]);
+            row.extend([x.unwrap_or(0.0), y.unwrap_or(0.0), 0.0]);
         }
         for from in [0, 1] {
             let row = self.covariance.get(from).cloned().unwrap_or_default();
             self.covariance.push(row);
         }
-        let at = self.covariance.len().saturating_sub(2);
-        for number in [at, at + 1] {
+        let at = self.covariance.len();
+        self.covariance.push(vec![0.0; at + 1]);
+        for number in [at.saturating_sub(2), at.saturating_sub(1)] {
             self.grow(number, number, FILTER.late_sigma_m * FILTER.late_sigma_m);
         }
+        self.grow(at, at, FILTER.bias_sigma_m * FILTER.bias_sigma_m);
     }
 
     /// Another estimator gives the pose.
@@ -329,19 +383,31 @@ impl BeaconFilter {
         self.beacons
             .iter()
             .enumerate()
-            .map(|(number, (beacon, place))| (*beacon, *place, self.widest_m(BEACONS + 2 * number)))
+            .map(|(number, beacon)| {
+                (
+                    beacon.number,
+                    beacon.place,
+                    self.widest_m(BEACONS + BEACON * number),
+                )
+            })
             .collect()
     }
 
     /// Ranges of a hop to located beacons, for the particle filter.
     pub(super) fn locate_ranges(&self, hop: &Hop, located_ranges: &mut Vec<LocatedRange>) {
         located_ranges.extend(hop.ranges.iter().filter_map(|range| {
-            let number = self.beacons.iter().position(|beacon| beacon.0 == range.beacon)?;
-            let place_sigma_m = self.widest_m(BEACONS + 2 * number);
+            let number = self
+                .beacons
+                .iter()
+                .position(|beacon| beacon.number == range.beacon)?;
+            let beacon = self.beacons.get(number)?;
+            let at = BEACONS + BEACON * number;
+            let known_m2 = libm::pow(self.widest_m(at), 2.0) + self.at(at + 2, at + 2);
+            let place_m2 = beacon.place_sigma_m * beacon.place_sigma_m;
             Some(LocatedRange {
-                at: self.beacons.get(number)?.1,
-                range_m: range.range_m,
-                sigma_m: libm::sqrt(range.sigma_m * range.sigma_m + place_sigma_m * place_sigma_m),
+                at: beacon.place,
+                range_m: range.range_m - beacon.bias_m,
+                sigma_m: libm::sqrt(range.sigma_m * range.sigma_m + place_m2 + known_m2),
             })
         }));
     }

@@ -1,9 +1,11 @@
 //! Collects motion and ranges into hops.
 
+use super::filter::ERRORS;
 use super::parameters::{HOP, RANGE};
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{BeaconRange, BeaconSignal, Observation};
+use crate::model::pose_estimate::PoseEstimate;
 
 /// Motion and ranges of a hop.
 #[derive(Clone, Debug, Default)]
@@ -21,22 +23,28 @@ pub(super) struct Hop {
     pub(super) turn_variance_rad2: f64,
     /// The turn comes from a gyro.
     pub(super) by_gyro: bool,
-    /// Mean range to each beacon and its standard deviation.
-    pub(super) ranges: Vec<BeaconRange>,
+    /// Something was touched, so the wheels may have slipped.
+    pub(super) touched: bool,
+    /// Mean range to each beacon, with the standard deviation that noise alone gives it.
+    pub(super) ranges: Vec<HopRange>,
+}
+
+/// The range of a hop to a beacon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HopRange {
+    pub(super) beacon: u16,
+    pub(super) range_m: f64,
+    /// Standard deviation that noise alone gives it, metres.
+    pub(super) sigma_m: f64,
+    /// How often errors that stay the same around a place were counted already: a robot that turns on the spot learns nothing of them.
+    pub(super) repeats: f64,
+    /// Where it was measured on average, seen from the end of the hop.
+    pub(super) at: Point2,
 }
 
 impl Hop {
-    /// The hop's middle, seen from its end. Ranges are measured all along the hop.
-    pub(super) fn middle(&self) -> Point2 {
-        let back = self.step.inverse();
-        Point2 {
-            x_m: 0.5 * back.x_m,
-            y_m: 0.5 * back.y_m,
-        }
-    }
-
     /// The motion after a correction of the wheels: more turn by `scale` and by `bend_rad_per_m`, more distance by `stretch`.
-    pub(super) fn corrected(&self, [bend_rad_per_m, scale, stretch]: [f64; 3]) -> Pose2 {
+    pub(super) fn corrected(&self, [bend_rad_per_m, scale, stretch, ..]: [f64; ERRORS]) -> Pose2 {
         let (bend_rad_per_m, scale) = if self.by_gyro {
             (0.0, 0.0)
         } else {
@@ -58,18 +66,28 @@ impl Hop {
 pub(super) struct HopBuilder {
     hop: Hop,
     turned_rad: f64,
-    sums: Vec<RangeSum>,
+    heard: Vec<HopRanges>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct RangeSum {
+/// All ranges of a hop to a beacon.
+#[derive(Clone, Debug)]
+struct HopRanges {
     beacon: u16,
-    count: u32,
-    range_m: f64,
+    ranges_m: Vec<f64>,
     sigma_m: f64,
+    /// Sum of the places at which they were measured, seen from the start of the hop.
+    places: Point2,
 }
 
 impl HopBuilder {
+    /// An estimate of the last hop's end, continued to where the robot is now.
+    pub(super) fn ahead_of(&self, estimate: PoseEstimate) -> PoseEstimate {
+        PoseEstimate {
+            pose: estimate.pose * self.hop.step,
+            ..estimate
+        }
+    }
+
     /// Adds a step. Returns the hop if it ends here.
     pub(super) fn take(&mut self, observation: &Observation, advance: Advance) -> Option<Hop> {
         let hop = &mut self.hop;
@@ -77,6 +95,7 @@ impl HopBuilder {
         hop.distance_m += advance.distance_m;
         hop.length_m += advance.distance_m.abs();
         hop.by_gyro = advance.gyro_turn_rad.is_some();
+        hop.touched |= observation.is_touching();
         hop.wheel_turn_rad += advance.wheel_turn_rad;
         self.turned_rad += advance.turn_rad.abs();
         for signal in &observation.beacons {
@@ -90,28 +109,30 @@ impl HopBuilder {
 
     fn add(&mut self, range: BeaconRange) {
         // Written so that NaN is rejected.
-        let believable = range.range_m >= 0.0
+        let believable = range.range_m > 0.0
             && range.range_m <= RANGE.range_max_m
             && range.sigma_m > 0.0
             && range.sigma_m <= RANGE.sigma_max_m;
         if !believable {
             return;
         }
-        let room = self.sums.len() < RANGE.beacons_max;
-        let known = self.sums.iter_mut().find(|sum| sum.beacon == range.beacon);
+        let room = self.heard.len() < RANGE.beacons_max;
+        let at = self.hop.step.position();
+        let known = self.heard.iter_mut().find(|of_it| of_it.beacon == range.beacon);
         match known {
-            Some(sum) => {
-                sum.count += 1;
-                sum.range_m += range.range_m;
-                sum.sigma_m = sum.sigma_m.max(range.sigma_m);
+            Some(of_it) if of_it.ranges_m.len() < RANGE.of_hop_max => {
+                of_it.ranges_m.push(range.range_m);
+                of_it.sigma_m = of_it.sigma_m.max(range.sigma_m);
+                of_it.places.x_m += at.x_m;
+                of_it.places.y_m += at.y_m;
             }
-            None if room => self.sums.push(RangeSum {
+            None if room => self.heard.push(HopRanges {
                 beacon: range.beacon,
-                count: 1,
-                range_m: range.range_m,
+                ranges_m: vec![range.range_m],
                 sigma_m: range.sigma_m.max(RANGE.sigma_min_m),
+                places: at,
             }),
-            None => {}
+            Some(_) | None => {}
         }
     }
 
@@ -127,20 +148,47 @@ impl HopBuilder {
             HOP.slip_rad_per_sqrt_m * HOP.slip_rad_per_sqrt_m * hop.length_m
                 + HOP.turn_rad_per_sqrt_rad * HOP.turn_rad_per_sqrt_rad * turned_rad
         };
-        hop.ranges = self.sums.drain(..).map(RangeSum::mean).collect();
+        if hop.touched {
+            hop.distance_variance_m2 += HOP.touch_m * HOP.touch_m;
+            if !hop.by_gyro {
+                hop.turn_variance_rad2 += HOP.touch_rad * HOP.touch_rad;
+            }
+        }
+        let back = hop.step.inverse();
+        hop.ranges = self
+            .heard
+            .drain(..)
+            .map(|of_it| of_it.median(back, hop.length_m))
+            .collect();
         hop.ranges.sort_by_key(|range| range.beacon);
         hop
     }
 }
 
-impl RangeSum {
-    fn mean(self) -> BeaconRange {
-        let count = f64::from(self.count);
-        let own_m2 = self.sigma_m * self.sigma_m / count;
-        BeaconRange {
+impl HopRanges {
+    /// The median, which single detours and failed measurements do not shift.
+    fn median(mut self, back: Pose2, length_m: f64) -> HopRange {
+        self.ranges_m.sort_unstable_by(f64::total_cmp);
+        let count = self.ranges_m.len();
+        let at = |index: usize| self.ranges_m.get(index).copied().unwrap_or_default();
+        let repeats = HOP.length_m / length_m.clamp(HOP.length_min_m, HOP.length_m);
+        let each = 1.0 / count.max(1) as f64;
+        HopRange {
             beacon: self.beacon,
-            range_m: self.range_m / count,
-            sigma_m: libm::sqrt(own_m2 + RANGE.place_sigma_m * RANGE.place_sigma_m),
+            repeats,
+            at: back.transform(Point2 {
+                x_m: each * self.places.x_m,
+                y_m: each * self.places.y_m,
+            }),
+            range_m: 0.5 * (at(count.saturating_sub(1) / 2) + at(count / 2)),
+            sigma_m: self.sigma_m * median_share(count),
         }
     }
+}
+
+/// Standard deviation of the median of so many normal numbers, as a share of that of one.
+fn median_share(count: usize) -> f64 {
+    let count = count.max(1) as f64;
+    // pi / 2 for many, 1 for one or two, which are a mean.
+    libm::sqrt((1.0 + 0.57 * (1.0 - 1.0 / count)) / count)
 }

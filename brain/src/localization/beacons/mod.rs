@@ -1,19 +1,20 @@
 //! Localization by ranges to radio beacons whose positions are unknown at first.
 //!
-//! *Hop*: the motion between two moments at which ranges are used. *Initialization*: the first metres, solved as one batch for the
-//! path, the wheels' errors and the positions of the beacons ([`initialization`]). *Filter*: estimates all of these from there on,
-//! hop by hop ([`filter`]). Odometry gives the pose until the initialization has a solution.
+//! *Hop*: the motion between two moments at which ranges are used. *Smoother*: solves the whole path so far for its poses, the errors
+//! of the robot and the positions of the beacons ([`smoother`]). *Filter*: estimates all of these from there on, hop by hop
+//! ([`filter`]), until the smoother has a better solution. Odometry gives the pose until it has the first one.
 //!
-//! Ranges have large errors: walls lengthen them, and some take a detour. So outliers have little weight, and twenty ranges at one
-//! place count little more than one.
+//! Ranges have large errors: walls lengthen them, and some take a detour. So outliers have next to no weight, each beacon has a bias and
+//! an error of its own that stays the same around a place, and a robot that turns on the spot learns nothing of that.
 
+mod beacon;
 mod filter;
 mod hop;
-mod initialization;
 mod located_range;
 mod multilateration;
 mod parameters;
 mod range_prediction;
+mod smoother;
 mod weight;
 
 use super::lift::Lift;
@@ -22,25 +23,27 @@ use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 use filter::BeaconFilter;
-use hop::HopBuilder;
-use initialization::BatchInitializer;
+use hop::{Hop, HopBuilder};
 pub(super) use located_range::LocatedRange;
+use parameters::HEADING;
+use smoother::BatchSmoother;
 
 /// Localization by beacons.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Beacons {
     gathering: HopBuilder,
     stage: BeaconStage,
     lift: Lift,
     located_ranges: Vec<LocatedRange>,
+    tells_heading: bool,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 enum BeaconStage {
     /// No beacon was heard yet.
     Silent,
-    Initializing(Box<BatchInitializer>),
-    Following(Box<BeaconFilter>),
+    Initializing(Box<BatchSmoother>),
+    Following(Box<BeaconFilter>, Option<Box<BatchSmoother>>),
     /// Somebody carried the robot to an unknown place.
     Carried,
 }
@@ -52,6 +55,7 @@ impl Beacons {
             stage: BeaconStage::Silent,
             lift: Lift::default(),
             located_ranges: Vec::new(),
+            tells_heading: false,
         }
     }
 
@@ -67,32 +71,82 @@ impl Beacons {
         if self.was_carried(observation, advance) {
             return None;
         }
-        let hop = self.gathering.take(observation, advance)?;
+        let hop = self.gathering.take(observation, advance);
+        let followed = hop.and_then(|hop| self.use_hop(hop, before));
+        let estimate = self.go_on().or(followed);
+        self.judge_heading(estimate);
+        estimate
+    }
+
+    /// Goes on with a solution of the path, and adopts it.
+    fn go_on(&mut self) -> Option<PoseEstimate> {
+        match &mut self.stage {
+            BeaconStage::Silent | BeaconStage::Carried => None,
+            BeaconStage::Initializing(batch) => {
+                let found = batch.go_on()?;
+                let estimate = self.gathering.ahead_of(found.estimate());
+                let BeaconStage::Initializing(batch) =
+                    core::mem::replace(&mut self.stage, BeaconStage::Silent)
+                else {
+                    return None;
+                };
+                self.stage = BeaconStage::Following(Box::new(found), Some(batch));
+                Some(estimate)
+            }
+            BeaconStage::Following(filter, batch) => {
+                **filter = batch.as_mut()?.go_on()?;
+                Some(self.gathering.ahead_of(filter.estimate()))
+            }
+        }
+    }
+
+    fn use_hop(&mut self, hop: Hop, before: PoseEstimate) -> Option<PoseEstimate> {
         match &mut self.stage {
             BeaconStage::Carried => None,
             BeaconStage::Silent => {
                 if !hop.ranges.is_empty() {
-                    self.stage = BeaconStage::Initializing(Box::new(BatchInitializer::new(before)));
+                    self.stage = BeaconStage::Initializing(Box::new(BatchSmoother::new(before)));
                 }
                 None
             }
             BeaconStage::Initializing(batch) => {
-                let Some(found) = batch.take(hop) else {
-                    if batch.is_hopeless() {
-                        **batch = BatchInitializer::new(before);
-                    }
-                    return None;
-                };
-                let estimate = found.estimate();
-                self.stage = BeaconStage::Following(Box::new(found));
+                batch.take(hop);
+                if batch.is_hopeless() {
+                    **batch = BatchSmoother::new(before);
+                }
+                None
+            }
+            BeaconStage::Following(filter, batch) => {
+                filter.take(&hop);
+                filter.locate_ranges(&hop, &mut self.located_ranges);
+                let estimate = filter.estimate();
+                if batch.as_ref().is_some_and(|batch| batch.is_long()) {
+                    *batch = None;
+                }
+                if let Some(batch) = batch {
+                    batch.take(hop);
+                }
                 Some(estimate)
             }
-            BeaconStage::Following(follower) => {
-                follower.take(&hop);
-                follower.locate_ranges(&hop, &mut self.located_ranges);
-                Some(follower.estimate())
-            }
         }
+    }
+
+    /// Decides whether the heading is known well enough to draw a map.
+    fn judge_heading(&mut self, estimate: Option<PoseEstimate>) {
+        let sigma_max_rad = if self.tells_heading {
+            HEADING.lost_sigma_rad
+        } else {
+            HEADING.known_sigma_rad
+        };
+        self.tells_heading = match estimate {
+            Some(estimate) => estimate.sigma_rad <= sigma_max_rad,
+            None => self.tells_heading && self.is_following(),
+        };
+    }
+
+    /// Whether the heading is known well enough to draw a map.
+    pub(super) const fn tell_heading(&self) -> bool {
+        self.tells_heading
     }
 
     fn was_carried(&mut self, observation: &Observation, advance: Advance) -> bool {
@@ -105,7 +159,7 @@ impl Beacons {
             self.gathering = HopBuilder::default();
             self.stage = match core::mem::replace(&mut self.stage, BeaconStage::Silent) {
                 BeaconStage::Silent => BeaconStage::Silent,
-                BeaconStage::Initializing(_) | BeaconStage::Following(_) | BeaconStage::Carried => {
+                BeaconStage::Initializing(_) | BeaconStage::Following(..) | BeaconStage::Carried => {
                     BeaconStage::Carried
                 }
             };
@@ -120,7 +174,7 @@ impl Beacons {
 
     /// Whether beacons determine the pose.
     pub(super) fn is_following(&self) -> bool {
-        matches!(self.stage, BeaconStage::Following(_))
+        matches!(self.stage, BeaconStage::Following(..))
     }
 
     /// Ranges of the last hop to located beacons; empty between hops.
@@ -131,7 +185,10 @@ impl Beacons {
     /// Another estimator gives the pose.
     pub(super) fn place_at(&mut self, pose: Pose2) {
         match &mut self.stage {
-            BeaconStage::Following(follower) => follower.place_at(pose),
+            BeaconStage::Following(follower, batch) => {
+                follower.place_at(pose);
+                *batch = None;
+            }
             BeaconStage::Initializing(_) | BeaconStage::Carried => self.stage = BeaconStage::Silent,
             BeaconStage::Silent => {}
         }
@@ -141,7 +198,7 @@ impl Beacons {
     #[cfg(test)]
     pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {
-            BeaconStage::Following(follower) => follower.places(),
+            BeaconStage::Following(follower, _) => follower.places(),
             BeaconStage::Silent | BeaconStage::Initializing(_) | BeaconStage::Carried => Vec::new(),
         }
     }

@@ -9,6 +9,8 @@ pub(super) struct RangePrediction {
     pub(super) by_x: f64,
     pub(super) by_y: f64,
     pub(super) by_heading: f64,
+    /// By the place of the antenna on the robot, forward and to the left.
+    pub(super) by_antenna: [f64; 2],
 }
 
 impl RangePrediction {
@@ -16,6 +18,7 @@ impl RangePrediction {
         let from = pose.transform(middle);
         let (dx, dy) = (from.x_m - beacon.x_m, from.y_m - beacon.y_m);
         let away_m = libm::sqrt(dx * dx + dy * dy).max(0.05);
+        let (sin, cos) = libm::sincos(pose.heading_rad);
         let (by_x, by_y) = (dx / away_m, dy / away_m);
         // When the pose turns, the middle moves at a right angle to its direction from the pose.
         let (ox, oy) = (from.x_m - pose.x_m, from.y_m - pose.y_m);
@@ -24,6 +27,7 @@ impl RangePrediction {
             by_x,
             by_y,
             by_heading: by_y * ox - by_x * oy,
+            by_antenna: [cos * by_x + sin * by_y, cos * by_y - sin * by_x],
         }
     }
 }

@@ -23,6 +23,8 @@ struct BeaconRobot {
     steps: usize,
     /// Added to each range to the first beacon, metres: a wall in the path.
     delay_m: f64,
+    /// The antenna sits so far ahead of the wheels, metres.
+    antenna_m: f64,
 }
 
 impl BeaconRobot {
@@ -38,6 +40,7 @@ impl BeaconRobot {
             view: Observation::default(),
             steps: 0,
             delay_m: 0.0,
+            antenna_m: 0.0,
         }
     }
 
@@ -78,7 +81,11 @@ impl BeaconRobot {
 
     fn range(&mut self) {
         let turn = self.steps % BEACONS.len();
-        let away_m = BEACONS[turn].distance_m(self.pose.position());
+        let antenna = self.pose.transform(Point2 {
+            x_m: self.antenna_m,
+            y_m: 0.0,
+        });
+        let away_m = BEACONS[turn].distance_m(antenna);
         let detour_m = if self.random.between(0.0, 1.0) < 0.05 {
             2.5
         } else {
@@ -87,7 +94,7 @@ impl BeaconRobot {
         let delay_m = if turn == 0 { self.delay_m } else { 0.0 };
         self.view.beacons = vec![BeaconSignal::Range(BeaconRange {
             beacon: 10 + turn as u16,
-            range_m: away_m + 0.2 * self.random.normal() + detour_m + delay_m,
+            range_m: (away_m + 0.2 * self.random.normal() + detour_m + delay_m).max(0.05),
             sigma_m: 0.2,
         })];
     }
@@ -169,6 +176,78 @@ fn a_wall_in_the_path_of_one_beacon_does_not_shift_the_pose() {
         worst_m = worst_m.max(truth.off(&localization).0);
     }
     assert!(worst_m < 0.8, "{worst_m} m");
+}
+
+/// Root mean square of the error after the first minutes, metres.
+fn rmse_m(truth: &mut BeaconRobot, minutes: usize, change: impl Fn(&mut BeaconRobot, usize)) -> f64 {
+    let mut localization = placed(truth.pose);
+    let (mut squares, mut count) = (0.0, 0.0);
+    for step in 0..20 * 60 * minutes {
+        change(truth, step);
+        take(&mut localization, truth.step());
+        if step > 20 * 60 * 4 {
+            squares += truth.off(&localization).0.powi(2);
+            count += 1.0;
+        }
+    }
+    f64::sqrt(squares / count)
+}
+
+#[test]
+fn half_a_minute_of_ranges_that_are_far_too_short_does_not_shift_the_pose() {
+    for seed in 1..=3 {
+        let off_m = rmse_m(&mut BeaconRobot::new(seed), 12, |truth, step| {
+            let is_wrong = step > 20 * 60 * 4 && step / 600 % 3 == 0;
+            truth.delay_m = if is_wrong { -4.0 } else { 0.0 };
+        });
+        assert!(off_m < 0.25, "seed {seed}: {off_m} m");
+    }
+}
+
+#[test]
+fn where_the_antenna_sits_is_learned() {
+    for seed in 1..=3 {
+        let mut truth = BeaconRobot::new(seed);
+        truth.antenna_m = 0.16;
+        let off_m = rmse_m(&mut truth, 12, |_, _| {});
+        assert!(off_m < 0.2, "seed {seed}: {off_m} m");
+    }
+}
+
+/// Lets it drive until something is so, for so long at most; gives the minutes.
+fn minutes_until(
+    (truth, localization): (&mut BeaconRobot, &mut Localization),
+    heard: usize,
+    is_so: impl Fn(&Localization, u64) -> bool,
+) -> Option<f64> {
+    (0..20 * 60 * 30_u32).find_map(|step| {
+        let mut view = truth.step().clone();
+        view.beacons.retain(
+            |signal| matches!(signal, BeaconSignal::Range(range) if usize::from(range.beacon) < 10 + heard),
+        );
+        take(localization, &view);
+        is_so(localization, view.time_us).then(|| f64::from(step) / 1_200.0)
+    })
+}
+
+#[test]
+fn three_beacons_tell_the_heading_soon_and_stop_telling_it_when_they_are_silent() {
+    let mut truth = BeaconRobot::new(4);
+    let mut localization = placed(truth.pose);
+    let told = minutes_until((&mut truth, &mut localization), 3, Localization::knows_heading);
+    assert!((0.5..4.0).contains(&told.unwrap()), "{told:?}");
+    let silent = minutes_until((&mut truth, &mut localization), 0, |localization, now_us| {
+        !localization.knows_heading(now_us)
+    });
+    assert!(silent.unwrap() > 0.5, "{silent:?}");
+}
+
+#[test]
+fn one_beacon_tells_no_heading() {
+    let mut truth = BeaconRobot::new(5);
+    let mut localization = placed(truth.pose);
+    let told = minutes_until((&mut truth, &mut localization), 1, Localization::knows_heading);
+    assert_eq!(told, None);
 }
 
 #[test]

@@ -299,10 +299,11 @@ impl Localization {
     #[must_use]
     pub fn knows_heading(&self, now_us: u64) -> bool {
         self.has_gyro(now_us)
-            || matches!(
-                self.active_estimator(),
-                EstimatorKind::Beacons | EstimatorKind::MonteCarlo
-            )
+            || match self.active_estimator() {
+                EstimatorKind::Beacons => self.beacons.tell_heading(),
+                EstimatorKind::MonteCarlo => true,
+                EstimatorKind::LineSlam | EstimatorKind::Odometry => false,
+            }
     }
 
     /// Standard deviation of the gyro's scale, relative, during line SLAM; `None` = no gyro, or a known map that determines the

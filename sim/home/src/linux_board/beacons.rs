@@ -43,6 +43,30 @@ enum RadioKind {
     Strengths(Air),
 }
 
+/// Ranges that are too long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LongRanges {
+    /// Behind anything solid, by a delay that is constant around a place; and a few that came by a detour.
+    BehindWalls,
+    /// Around some places, whatever stands between, each by a delay of its own.
+    Share {
+        /// Share of such places, 0..1.
+        share: f64,
+        /// Least delay, metres.
+        least_m: f64,
+        /// Greatest delay, metres.
+        most_m: f64,
+    },
+}
+
+/// A beacon that falls silent for good.
+#[derive(Clone, Copy, Debug)]
+struct Failure {
+    number: u16,
+    /// After so many milliseconds.
+    from_step: u64,
+}
+
 /// A beacon and its place in the plan frame, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beacon {
@@ -55,6 +79,8 @@ pub(super) struct Beacon {
 pub struct Beacons {
     places: Vec<(f64, f64)>,
     kind: RadioKind,
+    long: LongRanges,
+    failure: Option<Failure>,
     delays: u64,
     random: Pcg,
     steps: u64,
@@ -90,6 +116,8 @@ impl Beacons {
         Self {
             places,
             kind: RadioKind::Ranges,
+            long: LongRanges::BehindWalls,
+            failure: None,
             delays: u64::from(random.next_u32()) << 32 | u64::from(random.next_u32()),
             random,
             steps: 0,
@@ -101,6 +129,27 @@ impl Beacons {
     pub fn by_strength(self) -> Self {
         Self {
             kind: RadioKind::Strengths(Air::new(self.delays)),
+            ..self
+        }
+    }
+
+    /// The same beacons with other ranges that are too long.
+    #[must_use]
+    pub fn with_long_ranges(self, long: LongRanges) -> Self {
+        Self { long, ..self }
+    }
+
+    /// The same beacons, of which the last falls silent after so many milliseconds.
+    #[must_use]
+    pub fn with_failure(self, after_ms: u64) -> Self {
+        let last = self.places.len().checked_sub(1);
+        Self {
+            failure: last
+                .and_then(|last| u16::try_from(last).ok())
+                .map(|number| Failure {
+                    number,
+                    from_step: after_ms,
+                }),
             ..self
         }
     }
@@ -121,6 +170,10 @@ impl Beacons {
         let turn = (self.steps / TURN_MS) as usize % self.places.len();
         let place = *self.places.get(turn)?;
         let number = u16::try_from(turn).ok()?;
+        let is_silent = |failure: &Failure| failure.number == number && self.steps >= failure.from_step;
+        if self.failure.as_ref().is_some_and(is_silent) {
+            return None;
+        }
         let beacon = Beacon { number, place };
         let measured = match self.kind {
             RadioKind::Ranges => Measured::Range(self.measure(home, pose, beacon)?),
@@ -140,23 +193,37 @@ impl Beacons {
             return None;
         }
         let mut range_m = away_m + Self::SIGMA_M * self.random.normal();
-        if behind {
-            range_m += self.delay_m(number, pose);
-        }
-        if self.random.unit() < DETOURS {
-            range_m += DETOUR_MAX_M * self.random.unit();
+        match self.long {
+            LongRanges::BehindWalls => {
+                if behind {
+                    range_m += DELAY_MAX_M * self.drawn_around(number, pose, 0);
+                }
+                if self.random.unit() < DETOURS {
+                    range_m += DETOUR_MAX_M * self.random.unit();
+                }
+            }
+            LongRanges::Share {
+                share,
+                least_m,
+                most_m,
+            } => {
+                if self.drawn_around(number, pose, 1) < share {
+                    range_m += least_m + (most_m - least_m) * self.drawn_around(number, pose, 2);
+                }
+            }
         }
         Some(range_m.max(0.0))
     }
 
-    /// Delay of a beacon around a place, as a distance.
-    fn delay_m(&self, number: u16, pose: Pose) -> f64 {
+    /// A number between 0 and 1 that is constant for a beacon around a place; one for each `draw`.
+    fn drawn_around(&self, number: u16, pose: Pose, draw: u64) -> f64 {
         let patch = |value: f64| libm::floor(value / PATCH_M) as i64 as u64;
-        let mut hash = self.delays ^ u64::from(number).wrapping_mul(0xd6e8_feb8_6659_fd93);
+        let mut hash = self.delays ^ draw.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        hash ^= u64::from(number).wrapping_mul(0xd6e8_feb8_6659_fd93);
         hash ^= patch(pose.x_m).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         hash ^= patch(pose.y_m).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
         hash = (hash ^ (hash >> 31)).wrapping_mul(0xd6e8_feb8_6659_fd93);
-        DELAY_MAX_M * f64::from((hash >> 32) as u32) / 4_294_967_296.0
+        f64::from((hash >> 32) as u32) / 4_294_967_296.0
     }
 }
 

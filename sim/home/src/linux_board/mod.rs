@@ -4,5 +4,5 @@ mod beacons;
 mod gyro;
 mod strength;
 
-pub use beacons::{Beacons, Measured};
+pub use beacons::{Beacons, LongRanges, Measured};
 pub use gyro::BoardGyro;

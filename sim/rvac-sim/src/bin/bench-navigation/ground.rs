@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use home::generate::GeneratedHome;
-use home::{Home, Noise, RobotModel};
+use home::{Beacons, Home, LongRanges, Noise, RobotModel};
 use robot::RobotSettings;
 use rvac_sim::bench::{BUDGET_S, NamedHome};
 use rvac_sim::run::core_config;
@@ -18,6 +18,27 @@ pub(crate) struct Setup {
     pub(crate) model: RobotModel,
     pub(crate) noise: Noise,
     pub(crate) board_gyro: GyroFitting,
+    /// Radio beacons, of which the baseline hears none.
+    pub(crate) radio: Option<Radio>,
+}
+
+/// Beacons at the edges of a home, and the errors of their ranges.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Radio {
+    pub(crate) beacons: usize,
+    pub(crate) long: LongRanges,
+    /// The last of them falls silent after so long.
+    pub(crate) fails_after_ms: Option<u64>,
+}
+
+impl Radio {
+    fn in_home(&self, scene: &Scene, seed: u64) -> Beacons {
+        let beacons = scene.beacons(seed, self.beacons).with_long_ranges(self.long);
+        match self.fails_after_ms {
+            Some(after_ms) => beacons.with_failure(after_ms),
+            None => beacons,
+        }
+    }
 }
 
 /// Whether the robot's Linux board has a gyro.
@@ -67,8 +88,15 @@ impl HomeWithHistory {
             GyroFitting::Absent => household,
             GyroFitting::Fitted => household.with_board_gyro(self.scene.board_gyro(seed)),
         };
+        let household = match &setup.radio {
+            Some(radio) if mode.listens() => household.with_beacons(radio.in_home(&self.scene, seed)),
+            Some(_) | None => household,
+        };
         match mode {
-            CleaningMode::Bounce | CleaningMode::FirstRun | CleaningMode::LearntMap => household,
+            CleaningMode::Bounce
+            | CleaningMode::BeaconBounce
+            | CleaningMode::FirstRun
+            | CleaningMode::LearntMap => household,
             CleaningMode::KnownMap => household.with_known_map(),
             CleaningMode::OldMap => household.with_map_of(&self.first_day),
             CleaningMode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
@@ -107,6 +135,7 @@ mod tests {
                 model,
                 noise: Noise::ideal(),
                 board_gyro: GyroFitting::Absent,
+                radio: None,
             };
             let ground = HomeWithHistory::new(Arc::clone(&home), home, &setup);
             let single = core_config(&ground.scene, 3, CleaningMode::FirstRun.strategy());

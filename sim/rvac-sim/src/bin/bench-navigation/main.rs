@@ -18,11 +18,12 @@ use std::thread;
 
 use anyhow::Context;
 use clap::Parser;
-use home::RobotModel;
+use clap::builder::ArgPredicate;
 use home::traps::{Trap, TrapKind};
+use home::{LongRanges, RobotModel};
 use rvac_sim::bench::{NamedHome, in_order};
 
-use ground::{GyroFitting, HomeWithHistory, Setup};
+use ground::{GyroFitting, HomeWithHistory, Radio, Setup};
 use mode::{CleaningMode, SeededMode};
 use run::{Ground, Length, NavigationRun, rounds};
 use shared_progress::SharedProgress;
@@ -31,6 +32,17 @@ use traps::{TrapRun, TrapTable};
 
 /// Homes that are measured when none is named.
 const USUAL: &str = "homes/furnished-room.toml,homes/two-room-flat.toml,generated:2..10";
+/// Homes, and modes, of a robot that hears radio beacons.
+const RADIO: &str = "generated:1..10";
+const RADIO_MODES: &str = "bounce,beacon-bounce,known-map,first-run";
+/// Ranges of `--beacons`: this share is too long, by so much, metres.
+const LONG_RANGES: LongRanges = LongRanges::Share {
+    share: 0.1,
+    least_m: 0.3,
+    most_m: 1.0,
+};
+/// When the last beacon of `--beacon-fails` falls silent, milliseconds.
+const FAILS_AFTER_MS: u64 = 20 * 60_000;
 /// The large floors.
 const LARGE: &str = "homes/empty-halls.toml";
 
@@ -39,7 +51,7 @@ const LARGE: &str = "homes/empty-halls.toml";
 struct Arguments {
     /// Homes, separated by commas: `tuning` and `report` (odd and even numbers of the published set), `published` (both),
     /// `generated:A..B` with B, `generated:N`, `trap:KIND/SEED`, or files.
-    #[arg(long, default_value_if("large", "true", LARGE), default_value_if("first", "true", "report"), default_value = USUAL)]
+    #[arg(long, default_value_if("large", "true", LARGE), default_value_if("first", "true", "report"), default_value_if("beacons", ArgPredicate::IsPresent, RADIO), default_value = USUAL)]
     homes: String,
     /// First runs beside known maps, in the homes of `report`: with `--large`, in the large ones.
     #[arg(long)]
@@ -52,12 +64,16 @@ struct Arguments {
     #[arg(long)]
     traps: bool,
     /// Seeds of each home: 1 to this.
-    #[arg(long, default_value_t = 2)]
+    #[arg(
+        long,
+        default_value_if("beacons", ArgPredicate::IsPresent, "5"),
+        default_value = "2"
+    )]
     seeds: u64,
     /// Noise class: ideal, good, nominal or bad; parts of it can differ, as in `nominal,gyro=0,wheel-scale=2`.
     #[arg(long, default_value = "nominal")]
     noise: String,
-    /// What is compared, separated by commas: `bounce`, `known-map` (systematic with a perfect map),
+    /// What is compared, separated by commas: `bounce` (which hears no beacons), `beacon-bounce`, `known-map` (systematic with a perfect map),
     /// `old-map` (the same with the map of the first day of a home like generated:7/2+people), `first-run` (systematic
     /// without), `learnt-map` (a first run, a second and a third, each with the map that the one before saved),
     /// `perfect-pose` (with perfect map and pose: what the planner can do).
@@ -65,6 +81,7 @@ struct Arguments {
         long,
         default_value_if("first", "true", "known-map,first-run"),
         default_value_if("large", "true", "known-map"),
+        default_value_if("beacons", ArgPredicate::IsPresent, RADIO_MODES),
         default_value = "bounce,known-map,first-run"
     )]
     modes: String,
@@ -74,6 +91,16 @@ struct Arguments {
     /// A gyro on the Linux board, for a robot whose own board has none.
     #[arg(long)]
     board_gyro: bool,
+    /// So many radio beacons at the edges of each home, of which the robot knows no place: deviation 0.2 m, and around a tenth of all
+    /// places 0.3 to 1 m too long.
+    #[arg(long, value_name = "COUNT")]
+    beacons: Option<usize>,
+    /// Ranges to them are too long behind walls instead, up to 0.6 m, and one in fifty comes by a detour.
+    #[arg(long, requires = "beacons")]
+    behind_walls: bool,
+    /// The last of them falls silent in mid-run: after twenty minutes.
+    #[arg(long, requires = "beacons")]
+    beacon_fails: bool,
     /// Most T0 that a run may take.
     #[arg(long, default_value_t = 10.0)]
     longest: f64,
@@ -99,6 +126,15 @@ impl Arguments {
             } else {
                 GyroFitting::Absent
             },
+            radio: self.beacons.map(|beacons| Radio {
+                beacons,
+                long: if self.behind_walls {
+                    LongRanges::BehindWalls
+                } else {
+                    LONG_RANGES
+                },
+                fails_after_ms: self.beacon_fails.then_some(FAILS_AFTER_MS),
+            }),
         })
     }
 
@@ -179,6 +215,8 @@ fn print(
             "noise": arguments.noise,
             "robot": arguments.robot,
             "board_gyro": arguments.board_gyro,
+            "beacons": arguments.beacons,
+            "beacon_fails": arguments.beacon_fails,
             "longest_over_t0": arguments.longest,
             "work_minutes": arguments.work_minutes,
             "peak_memory_mib": peak_mib,

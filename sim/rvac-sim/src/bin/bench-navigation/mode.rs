@@ -9,6 +9,7 @@ use serde::Serialize;
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CleaningMode {
     Bounce,
+    BeaconBounce,
     KnownMap,
     OldMap,
     FirstRun,
@@ -24,8 +25,9 @@ pub(crate) struct SeededMode {
 }
 
 impl CleaningMode {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 7] = [
         Self::Bounce,
+        Self::BeaconBounce,
         Self::KnownMap,
         Self::OldMap,
         Self::FirstRun,
@@ -36,6 +38,7 @@ impl CleaningMode {
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Bounce => "bounce",
+            Self::BeaconBounce => "beacon-bounce",
             Self::KnownMap => "known-map",
             Self::OldMap => "old-map",
             Self::FirstRun => "first-run",
@@ -53,17 +56,22 @@ impl CleaningMode {
 
     pub(crate) const fn strategy(self) -> StrategyName {
         match self {
-            Self::Bounce => StrategyName::Bounce,
+            Self::Bounce | Self::BeaconBounce => StrategyName::Bounce,
             Self::KnownMap | Self::OldMap | Self::FirstRun | Self::LearntMap | Self::PerfectPose => {
                 StrategyName::Systematic
             }
         }
     }
 
+    /// Whether it hears the radio beacons of the home, if there are any: bounce by wheels alone is what they are measured against.
+    pub(crate) const fn listens(self) -> bool {
+        !matches!(self, Self::Bounce)
+    }
+
     /// Bounce never ends by itself, so a run is over when 95 % are swept.
     pub(crate) const fn end(self) -> RunEnd {
         match self {
-            Self::Bounce => RunEnd::Covered,
+            Self::Bounce | Self::BeaconBounce => RunEnd::Covered,
             Self::KnownMap | Self::OldMap | Self::FirstRun | Self::LearntMap | Self::PerfectPose => {
                 RunEnd::JobOver
             }
@@ -74,7 +82,12 @@ impl CleaningMode {
     pub(crate) const fn rounds(self) -> u32 {
         match self {
             Self::LearntMap => 3,
-            Self::Bounce | Self::KnownMap | Self::OldMap | Self::FirstRun | Self::PerfectPose => 1,
+            Self::Bounce
+            | Self::BeaconBounce
+            | Self::KnownMap
+            | Self::OldMap
+            | Self::FirstRun
+            | Self::PerfectPose => 1,
         }
     }
 }

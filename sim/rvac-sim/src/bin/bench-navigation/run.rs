@@ -22,6 +22,8 @@ pub(crate) struct NavigationRun {
     pub(crate) seed: u64,
     pub(crate) t0_s: f64,
     pub(crate) covered: f64,
+    /// Root mean square of the distance between believed and true place over the whole run; `null` = it has no estimate.
+    pub(crate) pose_rmse_m: Option<f64>,
     pub(crate) stuck: u32,
     pub(crate) foot_contacts: u32,
     pub(crate) foot_pushed_max_ms: u32,
@@ -108,6 +110,7 @@ fn one(
         seed,
         t0_s: report.t0_s,
         covered: report.covered,
+        pose_rmse_m: last.pose_rmse_m,
         stuck: last.stuck,
         foot_contacts: last.foot_contacts,
         foot_pushed_max_ms: last.foot_pushed_max_ms,

@@ -9,7 +9,7 @@ use crate::lost::LostShares;
 use crate::mode::CleaningMode;
 use crate::run::NavigationRun;
 
-const FIGURES: [RunFigure<NavigationRun>; 48] = [
+const FIGURES: [RunFigure<NavigationRun>; 49] = [
     RunFigure::less("t80_over_t0", |run| run.figures.t80_over_t0),
     RunFigure::less("t90_over_t0", |run| run.figures.t90_over_t0),
     RunFigure::less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -47,6 +47,7 @@ const FIGURES: [RunFigure<NavigationRun>; 48] = [
     RunFigure::less("minutes_per_room", |run| run.figures.field.minutes_per_room),
     RunFigure::less("swept_twice", |run| Some(run.figures.field.swept_twice)),
     RunFigure::more("path_efficiency", |run| run.figures.field.path_efficiency),
+    RunFigure::less("pose_rmse_m", |run| run.pose_rmse_m),
     RunFigure::less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
     RunFigure::less("pose_rmse_30_min_m", |run| run.figures.pose_rmse_30_min_m),
     RunFigure::less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),
