@@ -407,7 +407,8 @@ impl BeaconFilter {
             Some(LocatedRange {
                 at: beacon.place,
                 range_m: range.range_m - beacon.bias_m,
-                sigma_m: libm::sqrt(range.sigma_m * range.sigma_m + place_m2 + known_m2),
+                sigma_m: libm::sqrt(range.sigma_m * range.sigma_m + place_m2 + known_m2)
+                    .max(RANGE.told_sigma_min_m),
             })
         }));
     }

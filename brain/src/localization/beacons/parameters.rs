@@ -61,6 +61,9 @@ pub(super) struct RangeParameters {
     /// Least and greatest value of it that is learned.
     pub(super) place_sigma_min_m: f64,
     pub(super) place_sigma_max_m: f64,
+    /// Least standard deviation that the particle filter of a known home is told, metres. It takes the ranges of each hop for independent,
+    /// and would believe an error that stays the same around a place more with each.
+    pub(super) told_sigma_min_m: f64,
 }
 
 pub(super) const RANGE: RangeParameters = RangeParameters {
@@ -72,6 +75,7 @@ pub(super) const RANGE: RangeParameters = RangeParameters {
     place_sigma_m: 0.3,
     place_sigma_min_m: 0.05,
     place_sigma_max_m: 0.7,
+    told_sigma_min_m: 0.45,
 };
 
 /// The initialization, which solves a whole path as one batch.
