@@ -2,7 +2,7 @@
 //! the book says the same presses.
 
 use std::cell::Cell;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
@@ -184,11 +184,36 @@ async fn moves(visit: &Visit) {
     task.press("#tab-drive").await;
     task.count(1);
     let [x, y, radius] = pad_on_screen(browser).await;
-    touch(browser, "touchStart", &[[x, y]]);
-    touch(browser, "touchMove", &[[x - radius / 2.0, y]]);
-    touch(browser, "touchMove", &[[x - radius, y]]);
+    // A wheel counts as hanging for a while after it was put down, and a stick that was refused is let go before it counts again.
+    for _ in 0..5 {
+        touch(browser, "touchStart", &[[x, y]]);
+        touch(browser, "touchMove", &[[x - radius / 2.0, y]]);
+        touch(browser, "touchMove", &[[x - radius, y]]);
+        if is_driven(browser).await {
+            break;
+        }
+        touch(browser, "touchEnd", &[]);
+    }
     task.ends_with(&state("manual")).await;
     touch(browser, "touchEnd", &[]);
+}
+
+/// Whether the robot follows a person within two seconds.
+async fn is_driven(browser: &Browser) -> bool {
+    for _ in 0..20 {
+        if browser
+            .text(&format!(
+                "return String({})",
+                state("manual").replace("return ", "")
+            ))
+            .await
+            == "true"
+        {
+            return true;
+        }
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    false
 }
 
 async fn pairs() {
