@@ -5,19 +5,16 @@ use std::collections::{BTreeMap, HashMap};
 
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use rvac_api::{
-    InQuiet, LogEntry, LogLevel, RequestBody, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday,
-};
+use rvac_api::{LogEntry, LogLevel, RequestBody};
 use serde::Serialize;
 
+use crate::daily::{MIDNIGHT_S, daily_job};
 use crate::run::{RunSettings, household};
 use crate::{Household, Scene};
 
 /// A line may not come again within this time, seconds.
 const AGAIN_S: f64 = 60.0;
 const DAY_S: u64 = 24 * 3_600;
-/// Monday 2026-11-23, midnight UTC.
-const MIDNIGHT_S: i64 = 1_795_392_000;
 /// It has connected after this time.
 const CONNECT_MS: u64 = 5_000;
 /// Each night it cleans, early, so that few hours show all.
@@ -135,18 +132,7 @@ fn at_home(scene: &Scene, seed: u64) -> Household {
     if let Some(host) = household.host_mut() {
         host.set_wall(now_us, MIDNIGHT_S + (now_us / 1_000_000).cast_signed());
     }
-    household.ask(RequestBody::AddSchedule(ScheduleEntry {
-        name: "Morning".to_owned(),
-        enabled: true,
-        job: ScheduledJob::Start { strategy: None },
-        when: ScheduleTime::Weekly {
-            days: Weekday::ALL.to_vec(),
-            at: WORK_AT.to_owned(),
-        },
-        late_min: 0,
-        in_quiet: InQuiet::Refuse,
-        floor: None,
-    }));
+    household.ask(RequestBody::AddSchedule(daily_job("Night", WORK_AT)));
     household
 }
 

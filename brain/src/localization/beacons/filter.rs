@@ -96,16 +96,16 @@ impl BeaconFilter {
         }
     }
 
+    fn index_of(&self, beacon: u16) -> Option<usize> {
+        self.beacons.iter().position(|known| known.number == beacon)
+    }
+
     /// Predicts the motion of a hop and updates with its ranges.
     pub(super) fn take(&mut self, hop: &Hop) {
         self.advance(hop);
         self.watch_slip(hop);
         for range in &hop.ranges {
-            let known = self
-                .beacons
-                .iter()
-                .position(|beacon| beacon.number == range.beacon);
-            match known {
+            match self.index_of(range.beacon) {
                 Some(beacon) => self.compare(range, beacon),
                 None => self.keep(
                     range.beacon,
@@ -122,11 +122,7 @@ impl BeaconFilter {
     /// ranges do not agree for so long. Then the pose may be far off, so that the next ranges count fully.
     fn watch_slip(&mut self, hop: &Hop) {
         for range in &hop.ranges {
-            let Some(number) = self
-                .beacons
-                .iter()
-                .position(|beacon| beacon.number == range.beacon)
-            else {
+            let Some(number) = self.index_of(range.beacon) else {
                 continue;
             };
             let Some(known) = self.beacons.get(number) else {
@@ -150,11 +146,7 @@ impl BeaconFilter {
         let step = hop.corrected(self.errors);
         let (sin, cos) = libm::sincos(self.pose.heading_rad);
         let (dx, dy) = (cos * step.x_m - sin * step.y_m, sin * step.x_m + cos * step.y_m);
-        let (by_bend, by_scale) = if hop.by_gyro {
-            (0.0, 0.0)
-        } else {
-            (hop.distance_m, hop.wheel_turn_rad)
-        };
+        let (by_bend, by_scale) = hop.turn_by_errors();
         self.pose = Pose2 {
             x_m: self.pose.x_m + dx,
             y_m: self.pose.y_m + dy,
@@ -396,10 +388,7 @@ impl BeaconFilter {
     /// Ranges of a hop to located beacons, for the particle filter.
     pub(super) fn locate_ranges(&self, hop: &Hop, located_ranges: &mut Vec<LocatedRange>) {
         located_ranges.extend(hop.ranges.iter().filter_map(|range| {
-            let number = self
-                .beacons
-                .iter()
-                .position(|beacon| beacon.number == range.beacon)?;
+            let number = self.index_of(range.beacon)?;
             let beacon = self.beacons.get(number)?;
             let at = BEACONS + BEACON * number;
             let known_m2 = libm::pow(self.widest_m(at), 2.0) + self.at(at + 2, at + 2);

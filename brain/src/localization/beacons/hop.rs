@@ -43,14 +43,19 @@ pub(super) struct HopRange {
 }
 
 impl Hop {
-    /// The motion after a correction of the wheels: more turn by `scale` and by `bend_rad_per_m`, more distance by `stretch`.
-    pub(super) fn corrected(&self, [bend_rad_per_m, scale, stretch, ..]: [f64; ERRORS]) -> Pose2 {
-        let (bend_rad_per_m, scale) = if self.by_gyro {
+    /// Derivatives of its turn by the wheels' bend and scale: none when a gyro tells the turn.
+    pub(super) fn turn_by_errors(&self) -> (f64, f64) {
+        if self.by_gyro {
             (0.0, 0.0)
         } else {
-            (bend_rad_per_m, scale)
-        };
-        let more_rad = scale * self.wheel_turn_rad + bend_rad_per_m * self.distance_m;
+            (self.distance_m, self.wheel_turn_rad)
+        }
+    }
+
+    /// The motion after a correction of the wheels: more turn by `scale` and by `bend_rad_per_m`, more distance by `stretch`.
+    pub(super) fn corrected(&self, [bend_rad_per_m, scale, stretch, ..]: [f64; ERRORS]) -> Pose2 {
+        let (by_bend, by_scale) = self.turn_by_errors();
+        let more_rad = scale * by_scale + bend_rad_per_m * by_bend;
         let (sin, cos) = libm::sincos(0.5 * more_rad);
         let longer = 1.0 + stretch;
         Pose2 {

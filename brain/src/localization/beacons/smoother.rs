@@ -195,10 +195,9 @@ impl BatchProblem {
                     last = None;
                     continue;
                 }
-                let cut_m = off_m;
-                product += last.map_or(0.0, |last: f64| last * cut_m);
-                square += cut_m * cut_m;
-                last = Some(cut_m);
+                product += last.map_or(0.0, |last: f64| last * off_m);
+                square += off_m * off_m;
+                last = Some(off_m);
             }
             if sizes.len() < BATCH.learn_ranges {
                 continue;
@@ -387,11 +386,7 @@ fn measure_hop(hop: &Hop, ends: &HopEnds, system: &mut System) {
     let (sin, cos) = libm::sincos(from.heading_rad);
     let (dx, dy) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let (along_m, left_m) = (cos * dx + sin * dy, cos * dy - sin * dx);
-    let (by_bend, by_scale) = if hop.by_gyro {
-        (0.0, 0.0)
-    } else {
-        (hop.distance_m, hop.wheel_turn_rad)
-    };
+    let (by_bend, by_scale) = hop.turn_by_errors();
     let bent = |of: f64, towards: f64| 0.5 * of * towards;
     let at = ends.pose_at;
     let [bend, scale, stretch] = [0, 1, 2].map(|number| ends.errors_at + number);

@@ -210,16 +210,24 @@ impl Browser {
 
     /// The same, for what may take longer on a busy machine.
     pub(crate) async fn until_within(&self, patience: Duration, script: &str) {
+        if !self.is_within(patience, script).await {
+            self.fail(&format!("not before the deadline: {script}")).await;
+        }
+    }
+
+    /// Whether a script gives true within this time.
+    pub(crate) async fn is_within(&self, patience: Duration, script: &str) -> bool {
         let deadline = Instant::now() + patience;
         while !matches!(
             self.client.execute(script, Vec::new()).await,
             Ok(Value::Bool(true))
         ) {
             if Instant::now() > deadline {
-                self.fail(&format!("not before the deadline: {script}")).await;
+                return false;
             }
             sleep(LOOK_EVERY).await;
         }
+        true
     }
 
     /// Ends the test with what the page shows.

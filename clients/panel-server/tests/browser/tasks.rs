@@ -189,31 +189,13 @@ async fn moves(visit: &Visit) {
         touch(browser, "touchStart", &[[x, y]]);
         touch(browser, "touchMove", &[[x - radius / 2.0, y]]);
         touch(browser, "touchMove", &[[x - radius, y]]);
-        if is_driven(browser).await {
+        if browser.is_within(Duration::from_secs(2), &state("manual")).await {
             break;
         }
         touch(browser, "touchEnd", &[]);
     }
     task.ends_with(&state("manual")).await;
     touch(browser, "touchEnd", &[]);
-}
-
-/// Whether the robot follows a person within two seconds.
-async fn is_driven(browser: &Browser) -> bool {
-    for _ in 0..20 {
-        if browser
-            .text(&format!(
-                "return String({})",
-                state("manual").replace("return ", "")
-            ))
-            .await
-            == "true"
-        {
-            return true;
-        }
-        tokio::time::sleep(Duration::from_millis(100)).await;
-    }
-    false
 }
 
 async fn pairs() {

@@ -95,7 +95,7 @@ const KINDS: u64 = 9;
 impl BoardFault {
     /// What fails beside it; nothing beside a line without a robot, for which no robot is simulated.
     fn companion(self, number: u64, round: u64) -> Option<Self> {
-        // The last three kinds of a round; a gyro shows only while the cable is in.
+        // Their kinds by number. A gyro shows only while the cable is in, so it gets the disk or the clock.
         let cable = Self::drawn(KINDS * number + 4);
         let disk = Self::drawn(KINDS * number + 7);
         let clock = Self::drawn(KINDS * number + 8);

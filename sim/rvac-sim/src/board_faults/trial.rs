@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use brain::command::StrategyName;
 use rayon::prelude::*;
-use rvac_api::{InQuiet, RequestBody, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
+use rvac_api::{RequestBody, ScheduleEntry};
 use serde::Serialize;
 
 use super::fault::{BoardFault, BoardFaults};
+use crate::daily::{MIDNIGHT_S, daily_job};
 use crate::run::{RunSettings, core_config, household, start_cleaning};
 use crate::{Host, Household, Scene, TICK_US};
 use home::SensorId;
@@ -21,8 +22,8 @@ const BEFORE_MS: u64 = 12_000;
 const TURN_MAX_MS: u64 = 60_000;
 /// A turn in which a gyro's fault shows, radians.
 const TURN_RAD: f64 = 1.6;
-/// The clock on the wall at the start: 2026-11-23, noon UTC.
-const WALL_S: i64 = 1_795_435_200;
+/// The clock on the wall at the start: noon UTC.
+const WALL_S: i64 = MIDNIGHT_S + 12 * 3_600;
 
 /// How a draw passed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -164,16 +165,8 @@ impl Trial {
     /// Asks for a schedule; it counts as acknowledged unless it is refused.
     fn add_schedule(&mut self, name: &str) {
         let body = RequestBody::AddSchedule(ScheduleEntry {
-            name: name.to_owned(),
             enabled: false,
-            job: ScheduledJob::Start { strategy: None },
-            when: ScheduleTime::Weekly {
-                days: Weekday::ALL.to_vec(),
-                at: "03:00".to_owned(),
-            },
-            late_min: 0,
-            in_quiet: InQuiet::Refuse,
-            floor: None,
+            ..daily_job(name, "03:00")
         });
         let now_us = self.household.now_us();
         let Some(host) = self.household.host_mut() else {

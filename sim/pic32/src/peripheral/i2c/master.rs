@@ -150,6 +150,12 @@ impl I2c {
         }
     }
 
+    /// The next phase comes half a period later.
+    fn next_after_half(&mut self, now: Now) {
+        self.next_phase();
+        self.wait_half(now, 0);
+    }
+
     fn end_step(&mut self) {
         (self.step, self.timer) = (None, None);
         self.events.master = true;
@@ -174,8 +180,7 @@ impl I2c {
                 return self.end_step();
             }
         }
-        self.next_phase();
-        self.wait_half(now, 0);
+        self.next_after_half(now);
     }
 
     fn advance_restart(&mut self, phase: u8, now: Now) {
@@ -190,8 +195,7 @@ impl I2c {
                 return self.end_step();
             }
         }
-        self.next_phase();
-        self.wait_half(now, 0);
+        self.next_after_half(now);
     }
 
     fn advance_stop(&mut self, phase: u8, now: Now) {
@@ -205,8 +209,7 @@ impl I2c {
                 return self.end_step();
             }
         }
-        self.next_phase();
-        self.wait_half(now, 0);
+        self.next_after_half(now);
     }
 
     /// Lets go of the clock; the next phase begins when it is high.
@@ -230,8 +233,7 @@ impl I2c {
             }
             RAISE_CLOCK => self.raise_clock(now),
             AWAIT_CLOCK => {
-                self.next_phase();
-                self.wait_half(now, 0);
+                self.next_after_half(now);
             }
             _ => {
                 let data = self.data_high;
