@@ -180,7 +180,7 @@ fn StepView(store: Store) -> impl IntoView {
         focus_soon_on(STEP_ID.to_owned());
     });
     view! {
-        <div class="step" id=STEP_ID tabindex="-1" data-value=value data-asks=asks data-task=code_of_task>
+        <div class="step" id=STEP_ID tabindex="-1" data-page=page data-value=value data-asks=asks data-task=code_of_task>
             <h4 id="calibration-what">{title}</h4>
             <p id="calibration-danger" class="danger" hidden=move || danger().is_none()><strong>{danger}</strong></p>
             <p id="calibration-task" role="status">{task}</p>

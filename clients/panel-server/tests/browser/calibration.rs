@@ -32,12 +32,12 @@ const BEYOND: &str = "proximity-none";
 /// An emulated robot on a busy machine measures for long.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Which value the page measures, what it asks and what is to be done, as names.
-async fn shown(browser: &Browser) -> [String; 3] {
+/// The number of the step, which value it measures, what it asks and what is to be done, as names.
+async fn shown(browser: &Browser) -> [String; 4] {
     let told = browser
         .text(
             "const step = document.getElementById('calibration-step')?.dataset ?? {};
-             return JSON.stringify([step.value ?? '', step.asks ?? '', step.task ?? ''])",
+             return JSON.stringify([step.page ?? '', step.value ?? '', step.asks ?? '', step.task ?? ''])",
         )
         .await;
     serde_json::from_str(&told).unwrap()
@@ -46,6 +46,8 @@ async fn shown(browser: &Browser) -> [String; 3] {
 /// A person who does what the page says.
 struct Owner<'a> {
     visit: &'a Visit,
+    /// The step that was answered last. It stays on the page until the robot has heard the answer.
+    answered: String,
     has_let_go: bool,
     looked_at: Vec<String>,
 }
@@ -75,13 +77,14 @@ impl Owner<'_> {
     /// Answers the page that is shown; whether there is more to measure.
     async fn answer(&mut self) -> bool {
         let browser = &self.visit.browser;
-        let [value, asks, task] = shown(browser).await;
+        let [step, value, asks, task] = shown(browser).await;
         if value == BEYOND {
             return false;
         }
-        if !asks.is_empty() {
-            self.look(&asks, &task).await;
+        if asks.is_empty() || step == self.answered {
+            return true;
         }
+        self.look(&asks, &task).await;
         match asks.as_str() {
             "Ready" if MEASURED.contains(&value.as_str()) => {
                 if matches!(value.as_str(), "wheel-dead-band" | "wheel-free-speed") {
@@ -112,8 +115,9 @@ impl Owner<'_> {
                 browser.click("#calibration-go").await;
             }
             "Retry" => browser.fail(&format!("{value} failed")).await,
-            _ => {}
+            other => panic!("nobody knows how to answer {other}"),
         }
+        self.answered = step;
         true
     }
 
@@ -156,7 +160,11 @@ impl Owner<'_> {
             browser.until(&asks("Retry")).await;
             browser.says("calibration-failed", "Nupp lasti lahti").await;
             self.look("Retry", "").await;
+            let [failed, ..] = shown(browser).await;
             browser.click("#calibration-again").await;
+            browser
+                .until(&format!("return document.getElementById('calibration-step')?.dataset.page !== '{failed}'"))
+                .await;
             return;
         }
         println!("{value} is measured while the button is held");
@@ -186,6 +194,7 @@ async fn a_new_robot_is_calibrated_on_a_phone_and_starts() {
     browser.click("#calibration-begin").await;
     let mut owner = Owner {
         visit: &visit,
+        answered: String::new(),
         has_let_go: false,
         looked_at: Vec::new(),
     };
