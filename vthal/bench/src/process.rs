@@ -47,7 +47,22 @@ pub struct Daemon {
 impl Daemon {
     /// Starts `program` as a daemon on the paths `tty`, `vthal.sock` and `state` of `scratch` and waits until it is ready.
     pub fn start(program: &Path, scratch: &Scratch, more: &[&str]) -> io::Result<Self> {
-        let mut command = Command::new(program);
+        Self::start_on_paths(Command::new(program), scratch, more)
+    }
+
+    /// The same with so many bytes of address space at most: `prlimit` of util-linux sets the limit and becomes the program.
+    pub fn start_within(
+        address_space_bytes: u64,
+        program: &Path,
+        scratch: &Scratch,
+        more: &[&str],
+    ) -> io::Result<Self> {
+        let mut command = Command::new("prlimit");
+        command.arg(format!("--as={address_space_bytes}")).arg(program);
+        Self::start_on_paths(command, scratch, more)
+    }
+
+    fn start_on_paths(mut command: Command, scratch: &Scratch, more: &[&str]) -> io::Result<Self> {
         command
             .arg("--serial")
             .arg(scratch.join("tty"))

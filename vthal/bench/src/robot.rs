@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use rvac_protocol::PacketBuffer;
+use rvac_protocol::crc::{Direction, packet_crc};
 use rvac_protocol::message::{
     BinaryKinds, Capabilities, Command, Description, Event, Inhibit, Limits, MotionPhase, MotorGaps, Name,
     Report, ResetCause, State,
@@ -119,6 +120,19 @@ impl SyntheticRobot {
         let moment = Instant::now();
         self.pty.write_all(self.buffer.as_bytes())?;
         Ok(moment)
+    }
+
+    /// Sends the text of a packet, whatever it says, with the seal of the session. A greeting has none.
+    pub fn say_text(&mut self, text: &str) -> io::Result<()> {
+        let is_greeting = text.contains(r#""c":"hello""#);
+        let session = if is_greeting { 0 } else { self.session.session() };
+        let crc = packet_crc(Direction::RobotToHost, session, text.as_bytes());
+        self.pty.write_all(format!("{text}*{crc:08X}\u{1f}").as_bytes())
+    }
+
+    /// Sends bytes that no session has sealed.
+    pub fn blurt(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.pty.write_all(bytes)
     }
 
     /// Moves the encoders as the lease tells.

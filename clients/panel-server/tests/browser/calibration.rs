@@ -163,7 +163,9 @@ impl Owner<'_> {
             let [failed, ..] = shown(browser).await;
             browser.click("#calibration-again").await;
             browser
-                .until(&format!("return document.getElementById('calibration-step')?.dataset.page !== '{failed}'"))
+                .until(&format!(
+                    "return document.getElementById('calibration-step')?.dataset.page !== '{failed}'"
+                ))
                 .await;
             return;
         }
