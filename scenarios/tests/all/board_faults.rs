@@ -113,3 +113,37 @@ fn a_gyro_that_freezes_on_a_first_run_is_named_and_no_slip_is_made_up() {
     assert!(!says(&household, "slip"), "no slip is made up");
     assert_eq!(household.robot().monitor().count(), 0);
 }
+
+#[test]
+fn a_robot_whose_gyro_freezes_is_not_taken_for_one_that_does_not_move_and_drives_home() {
+    let scene = scene("two-room-flat", "nominal");
+    for seed in 1..=8 {
+        let settings = RunSettings {
+            seed,
+            ..settings(StrategyName::Systematic)
+        };
+        let mut household = household(&scene, &settings);
+        systematic(&mut household);
+        let world = household.robot_mut().world_mut();
+        world.set_fault(SensorId::Gyro, Some(SensorFault::StuckAt(0)));
+        let has_ended = |household: &Household| {
+            let state = household.host().and_then(Host::state);
+            matches!(
+                state,
+                Some(BehaviorState::Stuck | BehaviorState::Docked | BehaviorState::Idle)
+            )
+        };
+        household.pass_until(1_800, has_ended);
+        let host = household.host().expect("lives");
+        assert_eq!(
+            host.state(),
+            Some(BehaviorState::Docked),
+            "seed {seed}: {:?}",
+            host.status()
+        );
+        assert!(
+            says(&household, "state-docking (gyro-frozen)"),
+            "seed {seed}: it drives home for its gyro"
+        );
+    }
+}

@@ -176,7 +176,9 @@ impl Behavior {
             return TaskStatus::Finished(Reason::Slip);
         }
         let stands_still = job.progress.is_stuck(commanded, situation.advance);
-        let first_report = self.facts.not_moving && commanded != Motion::Rest;
+        // The firmware asks the gyro whether the robot turns. One that is known to be wrong only makes it rest.
+        let is_believed = situation.gyro_fault.is_none();
+        let first_report = is_believed && self.facts.not_moving && commanded != Motion::Rest;
         if stands_still || first_report {
             job.progress = recovery::ProgressWatch::default();
             return TaskStatus::Trouble(Reason::NotMoving);
