@@ -127,6 +127,17 @@ fn s1_a_fresh_command_goes_on_after_a_lost_link() {
     );
 }
 
+/// A robot that was told to stand, and stands, has lost nothing when that lease is over.
+#[test]
+fn s1_a_lease_to_stand_still_may_run_out() {
+    let mut rig = Rig::armed(0);
+    rig.send(drive(0.0, 0.0));
+    for _ in 0..1_000 {
+        rig.run(1);
+        assert!(!rig.has(Inhibit::LinkLost), "{:?}", rig.names());
+    }
+}
+
 #[test]
 fn s1_a_move_ends_when_the_link_is_silent() {
     let mut rig = Rig::armed(0);
