@@ -143,9 +143,9 @@ mod tests {
         assert!((route_length_m(&path) - 7.0).abs() < 1e-9);
         assert!(route_length_m(&PlannedPath::default()) < 1e-9);
         let job = JobProgress::of(&cleaning(100.0, 10.0), 30.0, Some(&covered(0.62)));
-        assert_eq!(job.text(ENGLISH).as_deref(), Some("About 5 min left, 62 % done."));
+        assert_eq!(job.text(ENGLISH).as_deref(), Some("About 5\u{a0}min left, 62\u{a0}% done."));
         let young = JobProgress::of(&cleaning(5.0, 0.1), 30.0, None);
-        assert_eq!(young.text(ENGLISH).as_deref(), Some("About 3 min left."));
+        assert_eq!(young.text(ENGLISH).as_deref(), Some("About 3\u{a0}min left."));
         let exploring = JobProgress::of(&cleaning(5.0, 0.1), 0.5, None);
         assert_eq!(exploring.text(ENGLISH), None);
         let idle = Status {
@@ -198,14 +198,14 @@ mod tests {
     #[test]
     fn the_end_is_summarized_with_what_was_left() {
         let summary = |share| run_summary(ENGLISH, &run(share, RunJob::Spot)).unwrap();
-        assert!(summary(None).ends_with("23.4 m² in 18:11."), "{}", summary(None));
+        assert!(summary(None).ends_with("23.4\u{a0}m² in 18:11."), "{}", summary(None));
         assert!(
             summary(Some(0.93))
-                .ends_with("23.4 m² in 18:11: 93 % of the floor. 7 % could not be reached or was left."),
+                .ends_with("23.4\u{a0}m² in 18:11: 93\u{a0}% of the floor. 7\u{a0}% could not be reached or was left."),
             "{}",
             summary(Some(0.93))
         );
-        assert!(summary(Some(1.0)).ends_with("23.4 m² in 18:11: all of the floor."));
+        assert!(summary(Some(1.0)).ends_with("23.4\u{a0}m² in 18:11: all of the floor."));
         assert_eq!(run_summary(ENGLISH, &run(None, RunJob::Dock)), None);
     }
 }

@@ -186,7 +186,7 @@ mod tests {
             sigma_rad: 0.02,
             ..Estimate::default()
         };
-        assert_eq!(place_text(ENGLISH, &sure), "± 4 cm");
+        assert_eq!(place_text(ENGLISH, &sure), "± 4\u{a0}cm");
         assert_eq!(estimate_sentences(ENGLISH, &sure).len(), 1);
         let lost = Estimate {
             lost: true,
@@ -197,14 +197,14 @@ mod tests {
         let told = estimate_sentences(ENGLISH, &lost);
         assert!(
             told[0].starts_with("The robot does not know")
-                && told[1].contains("31 %")
-                && told[2].contains("50 %")
+                && told[1].contains("31\u{a0}%")
+                && told[2].contains("50\u{a0}%")
         );
         let low = Estimate {
             covered_low: Some(0.44),
             ..lost
         };
-        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % of the reachable floor, at least 44 %"));
+        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50\u{a0}% of the reachable floor, at least 44\u{a0}%"));
         let doubting = Estimate {
             map_doubt: Some(MapDoubt::MappedNotMet),
             ..sure
@@ -224,7 +224,7 @@ mod tests {
                     ..sure
                 }
             ),
-            "± 1.3 m"
+            "± 1.3\u{a0}m"
         );
     }
 
