@@ -204,7 +204,10 @@ mod tests {
             covered_low: Some(0.44),
             ..lost
         };
-        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50\u{a0}% of the reachable floor, at least 44\u{a0}%"));
+        assert!(
+            estimate_sentences(ENGLISH, &low)[2]
+                .contains("50\u{a0}% of the reachable floor, at least 44\u{a0}%")
+        );
         let doubting = Estimate {
             map_doubt: Some(MapDoubt::MappedNotMet),
             ..sure
@@ -232,6 +235,7 @@ mod tests {
     fn a_way_becomes_dashes_that_go_on_round_corners() {
         let path = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
+            beyond_mm: 0,
         };
         let dashes = path_dashes(&path, 1.0);
         assert_eq!(
@@ -243,12 +247,22 @@ mod tests {
     #[test]
     fn strange_ways_do_no_harm() {
         for points_mm in [vec![], vec![5], vec![1, 2, 3], vec![7; 4]] {
-            assert!(path_dashes(&PlannedPath { points_mm }, 0.1).is_empty());
+            assert!(
+                path_dashes(
+                    &PlannedPath {
+                        points_mm,
+                        beyond_mm: 0
+                    },
+                    0.1
+                )
+                .is_empty()
+            );
         }
         let endless = PlannedPath {
             points_mm: (0..40_000)
                 .map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX })
                 .collect(),
+            beyond_mm: 0,
         };
         assert!(path_dashes(&endless, 0.0).len() <= 80_000);
         assert!(path_dashes(&endless, f64::NAN).is_empty());
