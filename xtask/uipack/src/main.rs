@@ -67,16 +67,13 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     };
     let names = [
         ("boot.js", &boot_name),
+        ("panel.js", &script_name),
         ("panel.css", &style_name),
         ("manifest.webmanifest", &manifest_name),
         *icon,
         *touch_icon,
     ];
-    let preloads = [("panel.js", &script_name), ("panel.wasm", &module_name)];
-    let page = filled(
-        &read("index.html")?,
-        &[names.as_slice(), preloads.as_slice()].concat(),
-    )?;
+    let page = filled(&read("index.html")?, &names)?;
     bundle.add_named("index.html", page.into_bytes());
     let worker = service_worker(&read("sw.js")?, &bundle)?;
     bundle.add_named("sw.js", worker.into_bytes());

@@ -132,7 +132,8 @@ const NO_BREAK_SPACE: char = '\u{a0}';
 
 /// Signs of units, as templates write them behind a figure and a space.
 const UNITS: [&str; 21] = [
-    "%", "km", "m", "cm", "m²", "m/s", "d", "p", "h", "min", "s", "ms", "A", "V", "Hz", "°C", "MB", "kB", "kB/s", "GiB", "MiB",
+    "%", "km", "m", "cm", "m²", "m/s", "d", "p", "h", "min", "s", "ms", "A", "V", "Hz", "°C", "MB", "kB",
+    "kB/s", "GiB", "MiB",
 ];
 
 /// Whether a value at the end of a text is the number of what stands before it, as in "Room 1".
@@ -143,7 +144,8 @@ fn is_number_of_name(value: &str, behind: &str) -> bool {
 /// What follows the space between a figure and its unit.
 fn unit_behind<'a>(value: &str, behind: &'a str) -> Option<&'a str> {
     let unit = behind.strip_prefix(' ')?;
-    let ends = |rest: &str| !rest.starts_with(|next: char| next.is_alphanumeric() || next == '/' || next == '-');
+    let ends =
+        |rest: &str| !rest.starts_with(|next: char| next.is_alphanumeric() || next == '/' || next == '-');
     let is_unit = UNITS.iter().any(|sign| unit.strip_prefix(sign).is_some_and(ends));
     (is_unit && value.ends_with(|last: char| last.is_ascii_digit())).then_some(unit)
 }
