@@ -6,6 +6,7 @@ mod gyro_words;
 mod learning;
 mod map_changes;
 mod map_words;
+mod planned_path;
 mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
@@ -33,6 +34,8 @@ use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
 use crate::navigation::TaskContext;
 use situation::Parts;
+
+pub use planned_path::PlannedPath;
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
 const SIDE_RAD: f64 = core::f64::consts::FRAC_PI_4;
@@ -297,11 +300,10 @@ impl Brain {
         self.behavior.awaits_charge()
     }
 
-    /// Corners of the planned path of the running or waiting job from here on, in the map frame, for display. Empty for a strategy that
-    /// does not plan.
+    /// The planned path of the running or waiting job from here on, for display.
     #[must_use]
-    pub fn planned_path(&self) -> Vec<Point2> {
-        self.behavior.planned_path()
+    pub fn planned_path(&self) -> PlannedPath {
+        PlannedPath::up_to_walls(self.behavior.planned_path(), self.map.knowledge())
     }
 
     /// Share of its target floor that the running or waiting job has swept; `None` for a job without a target, and where the map is

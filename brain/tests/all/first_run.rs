@@ -2,7 +2,9 @@
 
 use crate::plane::beams::{RING_DEG, Sight, sensors_at};
 use crate::plane::{BODY, Rectangle, Room, SPEEDS, STEP_S, World, config};
-use brain::{BehaviorState, Brain, BrainConfig, JobCommand, Pose2, StrategyName};
+use brain::{
+    BehaviorState, Brain, BrainConfig, Cell, CellKnowledge, JobCommand, Point2, Pose2, StrategyName,
+};
 
 /// A robot that cleans, and what it decided.
 struct Run {
@@ -292,4 +294,43 @@ fn a_robot_without_heading_cleans_by_statistics_and_says_how_sure_it_is() {
         assert!(run.has_decided(what, reason), "{what} ({reason})");
     }
     assert_eq!(run.world.violations, Vec::<String>::new());
+}
+
+/// Whether a told path lies over a cell that the map has as a wall.
+fn crosses_a_wall(brain: &Brain) -> bool {
+    let corners = brain.planned_path().corners;
+    let is_wall = |from: Point2, to: Point2| {
+        let steps = (from.distance_m(to) / 0.01).ceil().max(1.0) as u32;
+        (0..=steps).any(|step| {
+            let part = f64::from(step) / f64::from(steps);
+            let place = Point2 {
+                x_m: from.x_m + part * (to.x_m - from.x_m),
+                y_m: from.y_m + part * (to.y_m - from.y_m),
+            };
+            brain.map().knowledge().get(Cell::under(place)) == Some(&CellKnowledge::Occupied)
+        })
+    };
+    corners.windows(2).any(|ends| is_wall(ends[0], ends[1]))
+}
+
+#[test]
+fn no_told_path_of_a_first_run_crosses_a_wall_that_the_map_has() {
+    let halls = Room::empty((7.0, 5.0)).with(&[
+        Rectangle::new((2.0, 1.2), (2.1, 5.0)),
+        Rectangle::new((4.5, 0.0), (4.6, 3.6)),
+        Rectangle::new((5.4, 2.0), (6.0, 2.6)),
+    ]);
+    let mut run = Run::new(halls, at(1.0, 1.0), Some(ring()));
+    run.start(StrategyName::Systematic);
+    let (mut told, mut ended, mut seconds) = (0, 0, 0);
+    while run.until("state-idle", 1.0).is_none() && seconds < 1_200 {
+        seconds += 1;
+        assert!(!crosses_a_wall(&run.brain), "after {seconds} s");
+        let path = run.brain.planned_path();
+        told += u32::from(path.corners.len() > 1);
+        ended += u32::from(path.beyond_m > 0.0);
+    }
+    assert!(told > 200, "{told} paths in {seconds} s");
+    // Walls are found while the robot drives over what it had not seen: without them this test would look at nothing.
+    assert!(ended > 10, "{ended} of {told}");
 }

@@ -7,7 +7,7 @@ use panel_logic::{Language, Words};
 
 use crate::icons::{Icon, icon};
 
-/// Under this name the browser keeps the choice; `boot.js` reads it too.
+/// Under this name the browser keeps the choice, or the page's address has it; `boot.js` reads both.
 const KEY: &str = "language";
 
 thread_local! {
@@ -28,12 +28,23 @@ pub(crate) fn words() -> &'static Words {
     SPOKEN.get().words()
 }
 
-/// Stores the choice for the next visit and reloads the page.
+/// Stores the choice for the next visit and loads the page again. A browser that keeps nothing gets it in the page's address, where
+/// `boot.js` looks first.
 fn choose(language: Language) {
-    if let Ok(Some(storage)) = window().local_storage() {
-        storage.set_item(KEY, language.tag()).ok(); // Without storage the browser's wish stays in force.
+    let storage = window().local_storage().ok().flatten();
+    let is_kept = storage.is_some_and(|storage| storage.set_item(KEY, language.tag()).is_ok());
+    let wanted = if is_kept {
+        String::new()
+    } else {
+        format!("?{KEY}={}", language.tag())
+    };
+    let location = window().location();
+    // A page that cannot be loaded again goes on in the old language.
+    if location.search().is_ok_and(|search| search == wanted) {
+        location.reload().ok();
+    } else {
+        location.set_search(&wanted).ok();
     }
-    window().location().reload().ok(); // A page that cannot be reloaded goes on in the old language.
 }
 
 #[component]

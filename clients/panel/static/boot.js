@@ -1,5 +1,6 @@
 // Starts the panel; says so in plain words when that fails.
-import init from './{{panel.js}}';
+// The module is asked for here and now, and nowhere else: not every browser takes one that the page has loaded ahead.
+const module = fetch('./{{panel.wasm}}');
 
 const texts = {
   en: {
@@ -19,13 +20,19 @@ function kept(name) {
 const root = document.documentElement;
 const theme = kept('theme');
 if (theme === 'light' || theme === 'dark') root.dataset.theme = theme;
-const wanted = [kept('language'), ...navigator.languages].map((tag) => (tag ?? '').split('-')[0].toLowerCase());
+// A browser that keeps nothing has the choice in the page's address.
+const chosen = new URLSearchParams(location.search).get('language');
+const wanted = [chosen, kept('language'), ...navigator.languages].map((tag) => (tag ?? '').split('-')[0].toLowerCase());
 root.lang = wanted.find((language) => language in texts) ?? 'en';
 const text = texts[root.lang];
 
 const note = document.getElementById('boot');
 note.textContent = text.loading;
-init({ module_or_path: './{{panel.wasm}}' }).then(() => note.remove()).catch((error) => {
+async function start() {
+  const [{ default: init }, answer] = await Promise.all([import('./{{panel.js}}'), module]);
+  await init({ module_or_path: answer });
+}
+start().then(() => note.remove()).catch((error) => {
   note.setAttribute('role', 'alert');
   note.textContent = text.failed(error);
 });

@@ -55,6 +55,15 @@ impl MapDoubt {
 pub struct PlannedPath {
     /// Its corners as `[x0,y0,x1,y1,...]` in millimetres of the map frame; empty where the robot decides as it goes.
     pub points_mm: Vec<i32>,
+    /// Length of the rest of the plan, behind a wall that it did not know: the robot plans anew there.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub beyond_mm: u32,
+}
+
+/// Serde asks for a reference.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives one")]
+const fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 /// Something that the robot decided.

@@ -780,7 +780,16 @@ fn what_the_robot_thinks() {
     );
     let way = PlannedPath {
         points_mm: vec![0, -100, 2500, 40],
+        beyond_mm: 0,
     };
+    let cut = PlannedPath {
+        points_mm: vec![0, 0, 1200, 0],
+        beyond_mm: 34_500,
+    };
+    check(
+        &Update::PlannedPath(cut),
+        r#"{"e":"way","points_mm":[0,0,1200,0],"beyond_mm":34500}"#,
+    );
     check(
         &Update::PlannedPath(way),
         r#"{"e":"way","points_mm":[0,-100,2500,40]}"#,

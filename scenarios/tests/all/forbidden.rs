@@ -21,7 +21,7 @@ fn brain(household: &Household) -> &Brain {
 fn ahead(household: &Household) -> Option<Point2> {
     let brain = brain(household);
     let here = brain.pose().position();
-    let mut corners = brain.planned_path().into_iter();
+    let mut corners = brain.planned_path().corners.into_iter();
     corners.find(|corner| corner.distance_m(here) > AHEAD_M)
 }
 

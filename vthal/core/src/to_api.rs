@@ -121,14 +121,16 @@ const CORNERS_MAX: usize = 4_000;
 
 /// Where the robot means to drive; of a very long path its beginning.
 pub(crate) fn planned_path(brain: &Brain) -> PlannedPath {
-    let corners = brain.planned_path();
+    let path = brain.planned_path();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
     PlannedPath {
-        points_mm: corners
+        points_mm: path
+            .corners
             .iter()
             .take(CORNERS_MAX)
             .flat_map(|corner| [millimetres(corner.x_m), millimetres(corner.y_m)])
             .collect(),
+        beyond_mm: u32::try_from(millimetres(path.beyond_m)).unwrap_or_default(),
     }
 }
 

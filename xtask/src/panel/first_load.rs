@@ -3,28 +3,28 @@
 use crate::process;
 use anyhow::Context;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 /// What browsers fetch only when the page goes to a phone's home screen.
 const LATER: &str = "apple-touch-icon";
 
-/// Files that the page names and their bytes, packed as a browser takes them.
+/// Files that the page names, those that its scripts name, and their bytes, packed as a browser takes them.
 fn fetched(folder: &Path) -> anyhow::Result<Vec<(String, u64)>> {
-    let page_path = folder.join("index.html");
-    let page =
-        fs::read_to_string(&page_path).with_context(|| format!("cannot read {}", page_path.display()))?;
-    let named = page
-        .lines()
-        .filter(|line| !line.contains(LATER))
-        .flat_map(|line| line.split("href=\"").chain(line.split("src=\"")).skip(1))
-        .filter_map(|rest| Some(rest.split_once('"')?.0.to_owned()));
-    let mut names: Vec<String> = std::iter::once("index.html".to_owned())
-        .chain(named)
-        .filter(|name| folder.join(name).is_file())
+    let page = text(folder, "index.html")?;
+    let mut names: BTreeSet<String> = BTreeSet::from(["index.html".to_owned()]);
+    for line in page.lines().filter(|line| !line.contains(LATER)) {
+        names.extend(named(folder, line, &["href=\"", "src=\""], '"'));
+    }
+    let scripts: Vec<String> = names
+        .iter()
+        .filter(|name| name.ends_with(".js"))
+        .cloned()
         .collect();
-    names.sort();
-    names.dedup();
+    for script in scripts {
+        names.extend(named(folder, &text(folder, &script)?, &["'./"], '\''));
+    }
     let sized = |name: String| {
         let packed = folder.join(format!("{name}.br"));
         let bytes = fs::metadata(&packed)
@@ -33,6 +33,20 @@ fn fetched(folder: &Path) -> anyhow::Result<Vec<(String, u64)>> {
         Ok((name, bytes))
     };
     names.into_iter().map(sized).collect()
+}
+
+/// Files of the folder whose names stand behind one of the marks, up to `end`.
+fn named(folder: &Path, text: &str, marks: &[&str], end: char) -> Vec<String> {
+    let behind = marks.iter().flat_map(|mark| text.split(mark).skip(1));
+    behind
+        .filter_map(|rest| Some(rest.split_once(end)?.0.to_owned()))
+        .filter(|name| folder.join(name).is_file())
+        .collect()
+}
+
+fn text(folder: &Path, name: &str) -> anyhow::Result<String> {
+    let path = folder.join(name);
+    fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))
 }
 
 /// Prints it as one line of JSON: bytes over the wire with Brotli, and requests.
@@ -51,7 +65,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn the_page_and_what_it_names_is_counted_once() {
+    fn the_page_and_what_it_and_its_scripts_name_is_counted_once() {
         let folder = std::env::temp_dir().join(format!("xtask-first-load-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let page = "<link rel=\"icon\" href=\"a.svg\">\n<link rel=\"modulepreload\" href=\"p.js\">\n\
@@ -59,7 +73,11 @@ mod tests {
         for (name, bytes) in [
             ("index.html", page.as_bytes()),
             ("a.svg", b"1"),
-            ("p.js", b"22"),
+            (
+                "p.js",
+                b"fetch('./m.wasm'); import('./p.js'); import('./gone.js')",
+            ),
+            ("m.wasm", b"22"),
             ("i.png", b"333"),
         ] {
             fs::write(folder.join(name), bytes).unwrap();
@@ -68,7 +86,7 @@ mod tests {
         let files = fetched(&folder).unwrap();
         fs::remove_dir_all(&folder).unwrap();
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["a.svg", "index.html", "p.js"]);
+        assert_eq!(names, ["a.svg", "index.html", "m.wasm", "p.js"]);
         assert_eq!(files[2].1, 2);
     }
 }

@@ -1,10 +1,11 @@
 //! Packs the panel: `uipack IN.wasm OUTDIR`.
 //!
-//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen; the result, the page, the style sheet and the icons
+//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen, and its functions into an order that packs well; the result, the page, the style sheet and the icons
 //! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip and a Brotli twin. The page
 //! and the service worker alone keep their names: they are what a browser asks for first. OUTDIR is replaced as a whole.
 #![forbid(unsafe_code)]
 
+mod arrange;
 mod bundle;
 
 use std::env;
@@ -66,16 +67,13 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     };
     let names = [
         ("boot.js", &boot_name),
+        ("panel.js", &script_name),
         ("panel.css", &style_name),
         ("manifest.webmanifest", &manifest_name),
         *icon,
         *touch_icon,
     ];
-    let preloads = [("panel.js", &script_name), ("panel.wasm", &module_name)];
-    let page = filled(
-        &read("index.html")?,
-        &[names.as_slice(), preloads.as_slice()].concat(),
-    )?;
+    let page = filled(&read("index.html")?, &names)?;
     bundle.add_named("index.html", page.into_bytes());
     let worker = service_worker(&read("sw.js")?, &bundle)?;
     bundle.add_named("sw.js", worker.into_bytes());
@@ -123,7 +121,8 @@ fn bind(wasm: &Path) -> Result<(String, Vec<u8>)> {
             "dependencies of the panel bring JavaScript files of their own, which are not packed: {foreign:?}"
         );
     }
-    Ok((output.js().to_owned(), output.wasm_mut().emit_wasm()))
+    let module = arrange::alike_together(&output.wasm_mut().emit_wasm())?;
+    Ok((output.js().to_owned(), module))
 }
 
 /// Crates whose own JavaScript the module wants beside the generated one.

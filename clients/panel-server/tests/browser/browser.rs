@@ -239,10 +239,11 @@ impl Browser {
         );
     }
 
-    /// Waits until the element `id` is there and says this.
+    /// Waits until the element `id` is there and says this, whether or not a line may break within.
     pub(crate) async fn says(&self, id: &str, words: &str) {
+        let words = words.replace('\u{a0}', " ");
         self.until(&format!(
-            "return document.getElementById('{id}')?.textContent.includes('{words}') === true"
+            "return document.getElementById('{id}')?.textContent.replaceAll('\\u00a0', ' ').includes('{words}') === true"
         ))
         .await;
     }

@@ -39,7 +39,10 @@ const NOTED: &str = "
 const QUIET: &str = "return window.usefulAt !== undefined && performance.now() - Math.max(window.usefulAt, window.busyUntil) > 5000";
 
 /// What a first visit may bring over the network, bytes.
-const FIRST_LOAD_MAX: u64 = 900_000;
+const FIRST_LOAD_MAX: u64 = 700_000;
+
+/// How often the page has asked for its module.
+pub(crate) const MODULES_ASKED_FOR: &str = "return String(performance.getEntriesByType('resource').filter(part => part.name.endsWith('.wasm')).length)";
 
 /// How much longer than on this computer loading may take.
 const SLOW: Duration = Duration::from_secs(120);
@@ -87,6 +90,7 @@ async fn the_first_visit_of_a_slow_phone() {
     assert!(bytes > 100_000, "the page came over the network: {bytes}");
     assert!(bytes < FIRST_LOAD_MAX, "a first visit brings {bytes} bytes");
     assert!(first <= useful);
+    assert_eq!(browser.text(MODULES_ASKED_FOR).await, "1");
 }
 
 /// How long the page is watched.

@@ -18,6 +18,7 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
+use crate::costs::MODULES_ASKED_FOR;
 use crate::folder::Folder;
 use crate::gestures::{COUNT_MOTIONS, MOTIONS_SINCE, Random, count, judge};
 use crate::losses::OFF_DOCK;
@@ -340,6 +341,11 @@ async fn random_gestures(engine: Engine) {
     wire.open(&stack.address).await;
     stack.hand(OFF_DOCK);
     assert!(wire.until(IS_READY, PATIENCE).await, "nobody can drive");
+    assert_eq!(
+        wire.text(MODULES_ASKED_FOR).await,
+        "1",
+        "the largest file comes once"
+    );
     wire.text(COUNT_MOTIONS).await;
     let pad = serde_json::from_str(&wire.text(WHERE_IS_THE_PAD).await).unwrap();
     let mut hand = Hand {

@@ -196,7 +196,7 @@ async fn a_no_go_zone_is_drawn_reshaped_and_given_its_shape_back_by_keys_alone()
     let reshaped = browser
         .text("return document.getElementById('reshape-told').textContent")
         .await;
-    assert_ne!(reshaped, told);
+    assert!(!reshaped.ends_with(&drawn), "{reshaped}");
     press(browser, "Enter");
     browser
         .until(&format!(

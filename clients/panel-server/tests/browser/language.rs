@@ -54,3 +54,30 @@ async fn estonian_is_chosen_and_kept() {
         assert_eq!(browser.text(start).await, "Start");
     }
 }
+
+/// A browser that is told to let no page keep anything.
+const DENY_STORAGE: &str = "Object.defineProperty(window, 'localStorage', {
+    get() { throw new DOMException('The request was denied.', 'SecurityError'); },
+});";
+
+#[tokio::test]
+async fn a_browser_that_keeps_nothing_stays_in_the_language_that_was_chosen() {
+    let Some(visit) = Visit::begin(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let denial = serde_json::json!({ "source": DENY_STORAGE });
+    browser.devtools("Page.addScriptToEvaluateOnNewDocument", &denial);
+    browser.reload().await;
+    browser.until_state(&["idle", "docked"]).await;
+    for (language, start) in [("et", "Alusta"), ("en", "Start")] {
+        choose(browser, language).await;
+        browser.until_state(&["idle", "docked"]).await;
+        browser.reload().await;
+        browser.until_state(&["idle", "docked"]).await;
+        let shown = browser
+            .text("return document.getElementById('start').innerText.trim()")
+            .await;
+        assert_eq!(shown, start);
+    }
+}

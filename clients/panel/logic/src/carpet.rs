@@ -40,7 +40,7 @@ mod tests {
         };
         assert_eq!(
             carpet_sentence(words, &home(Some(felt(3.3, 20.0)))).as_deref(),
-            Some("Carpet detected: 3.3 m². Hard floor: 20.0 m².")
+            Some("Carpet detected: 3.3\u{a0}m². Hard floor: 20.0\u{a0}m².")
         );
         assert_eq!(carpet_sentence(words, &home(Some(felt(0.0, 0.0)))), None);
         let blind = carpet_sentence(words, &home(None)).expect("a sentence");

@@ -350,13 +350,13 @@ mod tests {
             .flat_map(|section| section.rows)
             .collect();
         for (label, value) in [
-            ("Charge", "39 %"),
-            ("Voltage", "15.98 V"),
-            ("Current", "0.00 A"),
-            ("Temperature", "32.2 °C"),
-            ("Main loop", "77762 Hz"),
-            ("To the robot", "0.00 kB/s"),
-            ("From the robot", "0.92 kB/s"),
+            ("Charge", "39\u{a0}%"),
+            ("Voltage", "15.98\u{a0}V"),
+            ("Current", "0.00\u{a0}A"),
+            ("Temperature", "32.2\u{a0}°C"),
+            ("Main loop", "77762\u{a0}Hz"),
+            ("To the robot", "0.00\u{a0}kB/s"),
+            ("From the robot", "0.92\u{a0}kB/s"),
             ("Firmware", "0.0.1"),
             ("cordlib", "0.0.1"),
         ] {
@@ -381,9 +381,9 @@ mod tests {
             super::battery_current(ENGLISH, &battery)
         };
         assert_eq!(shown("discharging", 0.0), "not measured");
-        assert_eq!(shown("discharging", -0.43), "-0.43 A");
-        assert_eq!(shown("charging", 0.0), "0.00 A");
-        assert_eq!(shown("full", 0.0), "0.00 A");
+        assert_eq!(shown("discharging", -0.43), "-0.43\u{a0}A");
+        assert_eq!(shown("charging", 0.0), "0.00\u{a0}A");
+        assert_eq!(shown("full", 0.0), "0.00\u{a0}A");
     }
 
     #[test]
@@ -413,7 +413,7 @@ mod tests {
         };
         assert_eq!(
             value(&robot, "Main brush"),
-            Some(("Off, 0.00 A".to_owned(), false))
+            Some(("Off, 0.00\u{a0}A".to_owned(), false))
         );
         assert_eq!(value(&robot, "No stall detection"), None);
         robot.unmeasured = vec!["brush-main".to_owned()];

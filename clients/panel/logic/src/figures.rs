@@ -70,18 +70,18 @@ mod tests {
         assert_eq!(clock_text(0.9), "0:00");
         assert_eq!(clock_text(245.0), "4:05");
         assert_eq!(clock_text(3845.0), "1:04:05");
-        assert_eq!(area_text(ENGLISH, 12.34), "12.3 m²");
-        assert_eq!(distance_text(ENGLISH, 999.4), "999 m");
-        assert_eq!(distance_text(ENGLISH, 1234.0), "1.23 km");
-        assert_eq!(distance_text(Language::Estonian.words(), 1234.0), "1,23 km");
-        assert_eq!(percent_text(ENGLISH, 0.996), "99 %");
-        assert_eq!(percent_text(ENGLISH, 1.0), "100 %");
+        assert_eq!(area_text(ENGLISH, 12.34), "12.3\u{a0}m²");
+        assert_eq!(distance_text(ENGLISH, 999.4), "999\u{a0}m");
+        assert_eq!(distance_text(ENGLISH, 1234.0), "1.23\u{a0}km");
+        assert_eq!(distance_text(Language::Estonian.words(), 1234.0), "1,23\u{a0}km");
+        assert_eq!(percent_text(ENGLISH, 0.996), "99\u{a0}%");
+        assert_eq!(percent_text(ENGLISH, 1.0), "100\u{a0}%");
     }
 
     #[test]
     fn the_scale_bar_is_round_and_fits() {
-        assert_eq!(scale_bar(ENGLISH, 100.0), ("1 m".to_owned(), 100.0));
-        assert_eq!(scale_bar(ENGLISH, 130.0), ("50 cm".to_owned(), 65.0));
+        assert_eq!(scale_bar(ENGLISH, 100.0), ("1\u{a0}m".to_owned(), 100.0));
+        assert_eq!(scale_bar(ENGLISH, 130.0), ("50\u{a0}cm".to_owned(), 65.0));
         for scale in [2.0, 7.0, 33.0, 400.0, 1000.0] {
             let (_, width) = scale_bar(ENGLISH, scale);
             assert!((40.0..=120.0).contains(&width), "{scale} {width}");

@@ -289,10 +289,10 @@ mod tests {
             ..HomeView::default()
         };
         let rows = room_rows(Language::English.words(), &home);
-        assert_eq!(rows[0].words, "12.4 m², doors to Kitchen and Room 3");
+        assert_eq!(rows[0].words, "12.4\u{a0}m², doors to Kitchen and Room\u{a0}3");
         assert_eq!(
             (rows[2].name.as_str(), rows[2].words.as_str()),
-            ("Room 3", "12.4 m², door to Room 1")
+            ("Room\u{a0}3", "12.4\u{a0}m², door to Room\u{a0}1")
         );
     }
 }

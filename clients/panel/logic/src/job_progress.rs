@@ -17,7 +17,7 @@ const FASTEST_M_PER_S: f64 = 0.4;
 /// A planned path that is shorter says nothing of the job: the robot plans anew at its end.
 const LEAST_M: f64 = 2.0;
 
-/// Length of a planned path in metres.
+/// Length of a planned path in metres, with what is planned behind a wall: the robot cleans there too, once it has found another way.
 #[must_use]
 pub fn route_length_m(path: &PlannedPath) -> f64 {
     let corner = |point: &[i32]| match point {
@@ -29,7 +29,7 @@ pub fn route_length_m(path: &PlannedPath) -> f64 {
         [from, to] => (to[0] - from[0]).hypot(to[1] - from[1]),
         _ => 0.0,
     });
-    steps.sum::<f64>() / 1000.0
+    (steps.sum::<f64>() + f64::from(path.beyond_mm)) / 1000.0
 }
 
 /// What is known of the end of the running job.
@@ -139,13 +139,22 @@ mod tests {
     fn the_planned_path_says_how_long_it_takes() {
         let path = PlannedPath {
             points_mm: vec![0, 0, 3000, 0, 3000, 4000],
+            beyond_mm: 0,
         };
         assert!((route_length_m(&path) - 7.0).abs() < 1e-9);
+        let cut = PlannedPath {
+            beyond_mm: 2_500,
+            ..path
+        };
+        assert!((route_length_m(&cut) - 9.5).abs() < 1e-9);
         assert!(route_length_m(&PlannedPath::default()) < 1e-9);
         let job = JobProgress::of(&cleaning(100.0, 10.0), 30.0, Some(&covered(0.62)));
-        assert_eq!(job.text(ENGLISH).as_deref(), Some("About 5 min left, 62 % done."));
+        assert_eq!(
+            job.text(ENGLISH).as_deref(),
+            Some("About 5\u{a0}min left, 62\u{a0}% done.")
+        );
         let young = JobProgress::of(&cleaning(5.0, 0.1), 30.0, None);
-        assert_eq!(young.text(ENGLISH).as_deref(), Some("About 3 min left."));
+        assert_eq!(young.text(ENGLISH).as_deref(), Some("About 3\u{a0}min left."));
         let exploring = JobProgress::of(&cleaning(5.0, 0.1), 0.5, None);
         assert_eq!(exploring.text(ENGLISH), None);
         let idle = Status {
@@ -198,14 +207,19 @@ mod tests {
     #[test]
     fn the_end_is_summarized_with_what_was_left() {
         let summary = |share| run_summary(ENGLISH, &run(share, RunJob::Spot)).unwrap();
-        assert!(summary(None).ends_with("23.4 m² in 18:11."), "{}", summary(None));
         assert!(
-            summary(Some(0.93))
-                .ends_with("23.4 m² in 18:11: 93 % of the floor. 7 % could not be reached or was left."),
+            summary(None).ends_with("23.4\u{a0}m² in 18:11."),
+            "{}",
+            summary(None)
+        );
+        assert!(
+            summary(Some(0.93)).ends_with(
+                "23.4\u{a0}m² in 18:11: 93\u{a0}% of the floor. 7\u{a0}% could not be reached or was left."
+            ),
             "{}",
             summary(Some(0.93))
         );
-        assert!(summary(Some(1.0)).ends_with("23.4 m² in 18:11: all of the floor."));
+        assert!(summary(Some(1.0)).ends_with("23.4\u{a0}m² in 18:11: all of the floor."));
         assert_eq!(run_summary(ENGLISH, &run(None, RunJob::Dock)), None);
     }
 }

@@ -66,6 +66,9 @@ mod tests {
             .iter()
             .map(|row| (row.number, row.name.as_str(), row.words.as_str()))
             .collect();
-        assert_eq!(told, [(2, "Table", "zone of 1.5 x 0.8 m"), (5, "Bowl", "spot")]);
+        assert_eq!(
+            told,
+            [(2, "Table", "zone of 1.5 x 0.8\u{a0}m"), (5, "Bowl", "spot")]
+        );
     }
 }

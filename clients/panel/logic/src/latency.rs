@@ -117,7 +117,7 @@ mod tests {
         meter.on_pose(1230.0, at(0.03));
         assert_eq!(
             meter.text(ENGLISH).as_deref(),
-            Some("From stick to wheels: 180 ms, median of 1: 180 ms")
+            Some("From stick to wheels: 180\u{a0}ms, median of 1: 180\u{a0}ms")
         );
         for (start, span) in [(3000.0, 100.0), (5000.0, 140.0)] {
             hold(&mut meter, start);
@@ -125,7 +125,7 @@ mod tests {
         }
         assert_eq!(
             meter.text(ENGLISH).as_deref(),
-            Some("From stick to wheels: 140 ms, median of 3: 140 ms")
+            Some("From stick to wheels: 140\u{a0}ms, median of 3: 140\u{a0}ms")
         );
     }
 

@@ -13,6 +13,7 @@ mod clock_field;
 mod codes;
 mod connection;
 mod currency;
+mod decimal;
 mod device_rows;
 mod dock_place;
 mod driver;
@@ -75,6 +76,7 @@ pub use codes::{
 };
 pub use connection::Backoff;
 pub use currency::{Currency, News, PieceJoiner};
+pub use decimal::read_decimal;
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_contacts, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, away_text, keys_of, knob_place, silent_text, top_speeds};

@@ -4,6 +4,7 @@
 //! that a change between the two changes no size.
 
 use crate::camera::View;
+use crate::decimal::read_decimal;
 use crate::point::{MapPoint, Pixel};
 
 /// Half of the angle that the picture spans from top to bottom: as a lens that does not distort much.
@@ -55,12 +56,12 @@ impl Orbit {
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
         let (yaw, pitch) = text.split_once(' ')?;
-        let (yaw, pitch): (f64, f64) = (yaw.parse().ok()?, pitch.parse().ok()?);
+        let (yaw, pitch) = (read_decimal(yaw)?, read_decimal(pitch)?);
         let kept = Self {
             yaw_rad: yaw,
             pitch_rad: pitch,
         };
-        (yaw.is_finite() && pitch.is_finite()).then(|| kept.turned(0.0, 0.0))
+        Some(kept.turned(0.0, 0.0))
     }
 }
 

@@ -468,14 +468,14 @@ mod tests {
         let mut zone = begin(Target::NoGo(4)).expect("is there");
         assert_eq!(
             (zone.name(), zone.clone().finish(&choice)),
-            ("No-go zone 4", None)
+            ("No-go zone\u{a0}4", None)
         );
         zone.move_to(Handle::Corner(2), [0.02, 1.0]);
         assert!(zone.problem(ENGLISH).is_some_and(|told| told.contains("5 cm")));
-        assert_eq!(zone.text(ENGLISH), "No-go zone 4: 2.0 x 1.0 m");
+        assert_eq!(zone.text(ENGLISH), "No-go zone\u{a0}4: 2.0 x 1.0\u{a0}m");
         zone.move_to(Handle::Corner(2), [3.0, 1.0]);
         assert_eq!(zone.problem(ENGLISH), None);
-        assert_eq!(zone.text(ENGLISH), "No-go zone 4: 3.0 x 1.0 m");
+        assert_eq!(zone.text(ENGLISH), "No-go zone\u{a0}4: 3.0 x 1.0\u{a0}m");
         let wider = vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]];
         assert_eq!(
             zone.finish(&choice),

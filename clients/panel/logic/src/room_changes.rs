@@ -99,9 +99,9 @@ mod tests {
         assert_eq!(
             told,
             [
-                (1, "Room 5 was split from Hall", false),
-                (2, "Room 6 was split from Hall", true),
-                (4, "Room 3 is a part of Room 2", true),
+                (1, "Room\u{a0}5 was split from Hall", false),
+                (2, "Room\u{a0}6 was split from Hall", true),
+                (4, "Room\u{a0}3 is a part of Room\u{a0}2", true),
             ]
         );
     }

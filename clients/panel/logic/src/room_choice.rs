@@ -431,7 +431,7 @@ mod tests {
             (choice.rooms(), choice.borders().count(), choice.place(4)),
             (vec![3, 4], 1, Some(3))
         );
-        assert!(choice.text(ENGLISH, &[]).starts_with("zone of 1.5 x 0.8 m"));
+        assert!(choice.text(ENGLISH, &[]).starts_with("zone of 1.5 x 0.8\u{a0}m"));
         choice.retain_known(&HomeView::default());
         assert_eq!((choice.rooms().len(), choice.borders().count()), (0, 1));
         let mut settings = choice.settings();
@@ -566,7 +566,7 @@ mod tests {
         };
         let text = job_estimate_text(ENGLISH, &estimate);
         assert!(
-            text.starts_with("18.2 m², about 25 min, 120 % of a full battery, with pauses to charge; expected coverage 97 %"),
+            text.starts_with("18.2\u{a0}m², about 25\u{a0}min, 120\u{a0}% of a full battery, with pauses to charge; expected coverage 97\u{a0}%"),
             "{text}"
         );
     }

@@ -315,7 +315,7 @@ mod tests {
         let rows = schedule_rows(ENGLISH, &told(), home);
         assert_eq!(
             rows[0].words,
-            "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
+            "Mon, Fri at 07:30, Kitchen, room\u{a0}9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
         );
         assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, skipped");
         assert_eq!(rows[0].now, "It would not start now: A wheel hangs in the air.");
@@ -357,11 +357,11 @@ mod tests {
         };
         assert_eq!(
             words(1),
-            "Mon, Fri at 07:30, room 4, room 9, 2 times, on Attic, up to 45 minutes late, waits for the end of the quiet hours"
+            "Mon, Fri at 07:30, room\u{a0}4, room\u{a0}9, 2 times, on Attic, up to 45 minutes late, waits for the end of the quiet hours"
         );
         assert_eq!(
             words(2),
-            "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
+            "Mon, Fri at 07:30, Kitchen, room\u{a0}9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
         );
     }
 

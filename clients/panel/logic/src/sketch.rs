@@ -389,9 +389,9 @@ mod tests {
         assert_eq!(
             words,
             [
-                "Virtual wall 2, 5.0 m",
-                "Cats, No-go zone 5, 1.5 x 0.8 m",
-                "No-go zone 6, 0.0 x 0.0 m"
+                "Virtual wall\u{a0}2, 5.0\u{a0}m",
+                "Cats, No-go zone\u{a0}5, 1.5 x 0.8\u{a0}m",
+                "No-go zone\u{a0}6, 0.0 x 0.0\u{a0}m"
             ]
         );
     }

@@ -126,7 +126,7 @@ mod tests {
         let english = Language::English.words();
         assert_eq!(
             statistics_headline(english, &sums()).as_deref(),
-            Some("All together: 12 cleanings, 9.8 hours, 412 m²")
+            Some("All together: 12 cleanings, 9.8 hours, 412\u{a0}m²")
         );
         assert_eq!(statistics_headline(english, &Statistics::default()), None);
         let estonian = statistics_headline(Language::Estonian.words(), &sums()).unwrap();
@@ -137,7 +137,7 @@ mod tests {
     fn the_most_frequent_cause_comes_first_and_one_without_words_is_named() {
         let rows = statistics_rows(Language::English.words(), &sums());
         let said: Vec<&str> = rows.iter().map(|(_, said)| said.as_str()).collect();
-        assert_eq!(said[0], "cleanings: 12, returns to the dock: 3");
+        assert_eq!(said[0], "cleanings:\u{a0}12, returns to the dock:\u{a0}3");
         assert_eq!(said[1], "13 finished, 1 given up, 1 cut short");
         assert!(rows[6].0.contains("wheel") && said[6] == "5x", "{rows:?}");
         assert_eq!(rows[7], ("of-tomorrow".to_owned(), "2x".to_owned()));

@@ -157,10 +157,10 @@ mod tests {
         let says = |label: &str| rows.iter().find(|row| row.0 == label).map(|row| row.1.as_str());
         assert!(rows.iter().all(|row| !row.2), "{rows:?}");
         assert_eq!(says("Network wlan0"), Some("192.168.1.7"));
-        assert_eq!(says("Disk"), Some("1.5 GiB free of 15.0 GiB"));
-        assert_eq!(says("Memory"), Some("207 MiB available of 426 MiB"));
+        assert_eq!(says("Disk"), Some("1.5\u{a0}GiB free of 15.0\u{a0}GiB"));
+        assert_eq!(says("Memory"), Some("207\u{a0}MiB available of 426\u{a0}MiB"));
         assert_eq!(says("Clock"), Some("as on this device"));
-        assert_eq!(says("Switched on for"), Some("2 d 7:33:20"));
+        assert_eq!(says("Switched on for"), Some("2\u{a0}d 7:33:20"));
     }
 
     #[test]

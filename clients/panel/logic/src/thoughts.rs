@@ -186,7 +186,7 @@ mod tests {
             sigma_rad: 0.02,
             ..Estimate::default()
         };
-        assert_eq!(place_text(ENGLISH, &sure), "± 4 cm");
+        assert_eq!(place_text(ENGLISH, &sure), "± 4\u{a0}cm");
         assert_eq!(estimate_sentences(ENGLISH, &sure).len(), 1);
         let lost = Estimate {
             lost: true,
@@ -197,14 +197,17 @@ mod tests {
         let told = estimate_sentences(ENGLISH, &lost);
         assert!(
             told[0].starts_with("The robot does not know")
-                && told[1].contains("31 %")
-                && told[2].contains("50 %")
+                && told[1].contains("31\u{a0}%")
+                && told[2].contains("50\u{a0}%")
         );
         let low = Estimate {
             covered_low: Some(0.44),
             ..lost
         };
-        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % of the reachable floor, at least 44 %"));
+        assert!(
+            estimate_sentences(ENGLISH, &low)[2]
+                .contains("50\u{a0}% of the reachable floor, at least 44\u{a0}%")
+        );
         let doubting = Estimate {
             map_doubt: Some(MapDoubt::MappedNotMet),
             ..sure
@@ -224,7 +227,7 @@ mod tests {
                     ..sure
                 }
             ),
-            "± 1.3 m"
+            "± 1.3\u{a0}m"
         );
     }
 
@@ -232,6 +235,7 @@ mod tests {
     fn a_way_becomes_dashes_that_go_on_round_corners() {
         let path = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
+            beyond_mm: 0,
         };
         let dashes = path_dashes(&path, 1.0);
         assert_eq!(
@@ -243,12 +247,22 @@ mod tests {
     #[test]
     fn strange_ways_do_no_harm() {
         for points_mm in [vec![], vec![5], vec![1, 2, 3], vec![7; 4]] {
-            assert!(path_dashes(&PlannedPath { points_mm }, 0.1).is_empty());
+            assert!(
+                path_dashes(
+                    &PlannedPath {
+                        points_mm,
+                        beyond_mm: 0
+                    },
+                    0.1
+                )
+                .is_empty()
+            );
         }
         let endless = PlannedPath {
             points_mm: (0..40_000)
                 .map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX })
                 .collect(),
+            beyond_mm: 0,
         };
         assert!(path_dashes(&endless, 0.0).len() <= 80_000);
         assert!(path_dashes(&endless, f64::NAN).is_empty());

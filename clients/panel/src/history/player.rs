@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use leptos::prelude::*;
-use panel_logic::{Plot, Replay, clock_text, plots, run_drawing};
+use panel_logic::{Plot, Replay, clock_text, plots, read_decimal, run_drawing};
 use rvac_api::RunRecord;
 
 use crate::language::words;
@@ -56,7 +56,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
         plays.set(begins);
     };
     let slide = move |event| {
-        if let Ok(value) = event_target_value(&event).parse::<f64>() {
+        if let Some(value) = read_decimal(&event_target_value(&event)) {
             plays.set(false);
             time.set(value);
         }
@@ -94,7 +94,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
 }
 
 fn speed_choice(speed: RwSignal<f64>) -> impl IntoView {
-    let choose = move |event| speed.set(event_target_value(&event).parse().unwrap_or(1.0));
+    let choose = move |event| speed.set(read_decimal(&event_target_value(&event)).unwrap_or(1.0));
     view! {
         <label class="field">
             <span class="visually-hidden">{words().history.speed}</span>

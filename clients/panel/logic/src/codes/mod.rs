@@ -7,6 +7,7 @@ mod estonian;
 pub use rvac_api::Explanation;
 use rvac_api::{Decision, Failure, FloorQuestion, LogEntry, Run, RunResult, RunStop};
 
+use crate::decimal::read_decimal;
 use crate::words::{Language, Words};
 
 const fn entry(code: &'static str, cause: &'static str, remedy: &'static str) -> (&'static str, Explanation) {
@@ -165,7 +166,7 @@ fn decided(entry: &LogEntry) -> Option<Decision> {
         t: entry.t,
         what: what.to_owned(),
         reason: reason.to_owned(),
-        value: value.trim().parse().unwrap_or_default(),
+        value: read_decimal(value.trim()).unwrap_or_default(),
         text: String::new(),
     })
 }

@@ -242,11 +242,11 @@ mod tests {
             .expect("one");
         assert_eq!(
             row.figures,
-            "Köök, a zone, 2 times, 1:05:05, 12.3 m², battery 98 % to 71 %"
+            "Köök, a zone, 2 times, 1:05:05, 12.3\u{a0}m², battery 98\u{a0}% to 71\u{a0}%"
         );
         assert!(row.is_bad);
         let figures = run_figures(ENGLISH, &record.run);
-        assert!(figures.contains(&("Cleaned", "12.3 m² (50 % of that floor)".to_owned())));
+        assert!(figures.contains(&("Cleaned", "12.3\u{a0}m² (50\u{a0}% of that floor)".to_owned())));
         assert_eq!(
             stop_rows(ENGLISH, &record)[0].words,
             "Paused: it was requested. By panel. At 1:01, for 0:12."

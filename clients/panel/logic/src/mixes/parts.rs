@@ -3,6 +3,7 @@
 use mixer::{Calibration, Line, Mix, Name, Output};
 
 use super::FieldError;
+use crate::decimal::read_decimal;
 
 /// A setting of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -175,12 +176,7 @@ pub(super) fn name(text: &str) -> Result<Name, FieldError> {
 
 /// What is no number becomes one that the mixer refuses, with its own sentence.
 pub(super) fn number(text: &str) -> f64 {
-    text.trim()
-        .replace(',', ".")
-        .parse()
-        .ok()
-        .filter(|number: &f64| number.is_finite())
-        .unwrap_or(f64::NAN)
+    read_decimal(&text.trim().replace(',', ".")).unwrap_or(f64::NAN)
 }
 
 pub(super) fn milliseconds(text: &str) -> Result<u16, FieldError> {

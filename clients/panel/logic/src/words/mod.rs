@@ -99,7 +99,7 @@ impl Language {
 pub struct Template<const N: usize>(&'static str);
 
 impl<const N: usize> Template<N> {
-    /// The text with these values in it.
+    /// The text with these values in it. A line does not break between a figure and its unit, nor between a name and its number.
     #[must_use]
     pub fn fill(self, values: [&dyn Display; N]) -> String {
         let mut text = String::new();
@@ -109,14 +109,45 @@ impl<const N: usize> Template<N> {
             .and_then(|(before, after)| Some((before, after.split_once('}')?)))
         {
             text.push_str(before);
-            if let Some(value) = place.parse::<usize>().ok().and_then(|place| values.get(place)) {
-                text.push_str(&value.to_string());
-            }
             rest = behind;
+            if let Some(value) = place.parse::<usize>().ok().and_then(|place| values.get(place)) {
+                let value = value.to_string();
+                if is_number_of_name(&value, rest) && text.ends_with(' ') {
+                    text.pop();
+                    text.push(NO_BREAK_SPACE);
+                }
+                text.push_str(&value);
+                if let Some(unit) = unit_behind(&value, rest) {
+                    text.push(NO_BREAK_SPACE);
+                    rest = unit;
+                }
+            }
         }
         text.push_str(rest);
         text
     }
+}
+
+const NO_BREAK_SPACE: char = '\u{a0}';
+
+/// Signs of units, as templates write them behind a figure and a space.
+const UNITS: [&str; 21] = [
+    "%", "km", "m", "cm", "m²", "m/s", "d", "p", "h", "min", "s", "ms", "A", "V", "Hz", "°C", "MB", "kB",
+    "kB/s", "GiB", "MiB",
+];
+
+/// Whether a value at the end of a text is the number of what stands before it, as in "Room 1".
+fn is_number_of_name(value: &str, behind: &str) -> bool {
+    behind.is_empty() && !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// What follows the space between a figure and its unit.
+fn unit_behind<'a>(value: &str, behind: &'a str) -> Option<&'a str> {
+    let unit = behind.strip_prefix(' ')?;
+    let ends =
+        |rest: &str| !rest.starts_with(|next: char| next.is_alphanumeric() || next == '/' || next == '-');
+    let is_unit = UNITS.iter().any(|sign| unit.strip_prefix(sign).is_some_and(ends));
+    (is_unit && value.ends_with(|last: char| last.is_ascii_digit())).then_some(unit)
 }
 
 /// Makes a screen: its structure and its texts in every language.

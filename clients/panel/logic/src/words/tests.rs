@@ -122,7 +122,7 @@ fn lists_of_days_and_months_are_whole() {
 
 #[test]
 fn values_stand_where_the_text_wants_them() {
-    assert_eq!(Template::<2>("{1} of {0}").fill([&7, &"a"]), "a of 7");
+    assert_eq!(Template::<2>("{1} of {0}").fill([&7, &"a"]), "a of\u{a0}7");
     assert_eq!(Template::<1>("{0}{9} {").fill([&1.5]), "1.5 {");
     let estonian = Language::Estonian.words();
     assert_eq!(estonian.number(12.345, 1), "12,3");
@@ -135,5 +135,28 @@ fn a_language_is_found_by_its_tag() {
     assert_eq!(Language::of_tag("EN"), Some(Language::English));
     for other in ["", "de", "eesti", "e"] {
         assert_eq!(Language::of_tag(other), None, "{other}");
+    }
+}
+
+#[test]
+fn a_figure_stays_with_its_unit_and_a_name_with_its_number() {
+    let joined = |text: &'static str, values: [&str; 2]| Template::<2>(text).fill([&values[0], &values[1]]);
+    for (text, values, wanted) in [
+        ("{0} % of {1} m²", ["45", "12,3"], "45\u{a0}% of 12,3\u{a0}m²"),
+        ("{0} kB/s, {1} min.", ["7", "3"], "7\u{a0}kB/s, 3\u{a0}min."),
+        // Words, figures that are none, and units of something else may stand on two lines.
+        ("{0} minutes in {1}", ["7", "3rd"], "7 minutes in 3rd"),
+        ("{0} m {1}", ["–", ""], "– m "),
+        ("{0} m-long {1}", ["3", "x"], "3 m-long x"),
+        ("{0} room {1}", ["the", "12"], "the room\u{a0}12"),
+        ("{0} room {1}", ["the", "blue"], "the room blue"),
+    ] {
+        assert_eq!(joined(text, values), wanted);
+    }
+    for language in Language::ALL {
+        let words = language.words();
+        assert_eq!(words.unit.percent.fill([&45]), "45\u{a0}%");
+        assert!(!words.home.room.fill([&1]).contains(' '), "{language:?}");
+        assert!(!words.home.map.fill([&1]).contains(' '), "{language:?}");
     }
 }
