@@ -105,6 +105,7 @@ impl Brain {
             self.localization.place_at(pose);
         }
         self.track();
+        self.localization.begin_with_beacons(self.map.beacons());
         if let Some(pose) = dock.pose().filter(|_| dock.is_reported()) {
             self.localization.place_roughly_at(pose);
         }
@@ -126,6 +127,9 @@ impl Brain {
         }
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation);
+        }
+        if let Some(beacons) = self.localization.beacons_to_keep(observation.time_us) {
+            self.map.keep_beacons(beacons);
         }
         if let Some(trust) = self.localization.place_trust() {
             self.map.note_trust(trust, observation.time_us);
@@ -420,6 +424,7 @@ impl Brain {
         } else {
             self.map.draw_afresh();
         }
+        self.localization.begin_with_beacons(self.map.beacons());
         self.begin_with(Learnt {
             gyro: checkpoint.gyro,
             energy: checkpoint.energy,

@@ -40,6 +40,7 @@ pub use model::gyro_fault::GyroFault;
 pub use model::inhibit::{Inhibit, Inhibits};
 pub use model::job_refusal::JobRefusal;
 pub use model::kept_place::{KeptPlace, PlaceShape};
+pub use model::known_beacon::{KNOWN_BEACONS_MAX, KnownBeacon};
 pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::link_fault::LinkFault;
 pub use model::map_doubt::MapDoubt;

@@ -22,6 +22,8 @@ pub(crate) struct Facts {
     pub(crate) at_cliff: bool,
     /// There is a source of heading besides the wheels.
     pub(crate) knows_heading: bool,
+    /// Beacons are in range that will tell the heading once the robot drives.
+    pub(crate) hears_beacons: bool,
     /// The charger has stopped for a fault.
     pub(crate) charger_fault: bool,
     /// Values of this robot that it needs to move were never measured.
@@ -66,6 +68,7 @@ impl Facts {
             charge_flow: observation.charge_flow,
             touching: observation.is_touching(),
             at_cliff: observation.is_at_cliff(),
+            hears_beacons: observation.hears_beacons(),
             ..Self::default()
         };
         for inhibit in observation.inhibits.iter() {

@@ -33,6 +33,8 @@ pub(super) struct Job {
     pub(super) detour: Option<Detour>,
     /// Since when only the wheels tell the heading of a job that draws a map.
     pub(super) without_heading_us: Option<u64>,
+    /// Beacons were in range: the job finds its heading by them, and goes on by statistics where it does not.
+    pub(super) has_heard_beacons: bool,
     /// When to rest next so that the gyro's bias can be measured.
     pub(super) gyro_rest: GyroRest,
     /// Brushes may run: the bumper was released after the job last started (S29).
@@ -89,6 +91,7 @@ impl Job {
             edges: CliffWatch::default(),
             detour: None,
             without_heading_us: None,
+            has_heard_beacons: false,
             gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,

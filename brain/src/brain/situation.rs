@@ -33,6 +33,7 @@ impl<'step> Parts<'step> {
             beams: self.beams,
             config: self.config,
             knows_heading: localization.knows_heading(observation.time_us),
+            hears_beacons: observation.hears_beacons(),
             gyro_fault: localization.gyro_fault(),
             touching: observation.is_touching(),
             at_cliff: observation.is_at_cliff(),

@@ -22,7 +22,7 @@ pub(crate) use estimate::{JobConditions, estimate};
 pub(crate) use order_reach::{admit_reach, is_off_order, left_most};
 pub(crate) use perimeter::{LapStep, Perimeter};
 pub(crate) use spot::Spot;
-use statistical::Statistical;
+pub(crate) use statistical::Statistical;
 use systematic::Systematic;
 use wall_bounce::WallBounce;
 

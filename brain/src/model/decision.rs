@@ -104,12 +104,16 @@ named_enum! {
         EscapeWait => "escape-wait",
         /// Recovery: wiggles.
         EscapeWiggle => "escape-wiggle",
+        /// Drives about until beacons tell its heading.
+        FindHeading => "find-heading",
         /// Follows a wall.
         FollowWall => "follow-wall",
         /// Forgets the obstructions of this job.
         ForgetObstructions => "forget-obstructions",
         /// Recovery succeeded.
         Free => "free",
+        /// Beacons tell its heading: lanes begin.
+        HeadingFound => "heading-found",
         /// Keeps no map in this job.
         KeepNoMap => "keep-no-map",
         /// Begins a lap along the walls.

@@ -15,6 +15,7 @@ pub(crate) mod gyro_fault;
 pub(crate) mod inhibit;
 pub(crate) mod job_refusal;
 pub(crate) mod kept_place;
+pub(crate) mod known_beacon;
 pub mod learnt;
 pub(crate) mod link_fault;
 pub(crate) mod map_doubt;

@@ -2,6 +2,9 @@
 
 use super::inhibit::{Inhibit, Inhibits};
 
+/// Beacons that tell a heading in motion: with two a robot cannot tell its place from the mirrored one.
+const BEACONS_MIN: u8 = 3;
+
 /// The state of all sensors at one moment. It holds totals instead of rates, so a lost observation loses nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -25,6 +28,8 @@ pub struct Observation {
     pub dock_beams: Vec<u8>,
     /// Radio measurements of beacons since the last observation; empty without a radio.
     pub beacons: Vec<BeaconSignal>,
+    /// Number of beacons whose distance was measured lately, also before this brain began.
+    pub beacons_in_range: u8,
     /// On the dock's contacts.
     pub docked: bool,
     /// Battery charge 0..1, if measured.
@@ -42,6 +47,12 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// Whether enough beacons are in range to tell a robot that drives its heading.
+    #[must_use]
+    pub fn hears_beacons(&self) -> bool {
+        self.beacons_in_range >= BEACONS_MIN
+    }
+
     /// Whether a bumper is pressed, or the firmware still inhibits motion because of one.
     #[must_use]
     pub fn is_touching(&self) -> bool {
@@ -69,6 +80,7 @@ impl Default for Observation {
             proximity: Vec::new(),
             dock_beams: Vec::new(),
             beacons: Vec::new(),
+            beacons_in_range: 0,
             docked: false,
             battery_charge: None,
             charge_flow: None,
@@ -115,7 +127,7 @@ pub enum BeaconSignal {
 /// Received signal strength of a radio beacon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconStrength {
-    /// Number of the beacon, constant while the daemon runs.
+    /// Number of the beacon, the same in each run.
     pub beacon: u16,
     /// Received power, decibels above a milliwatt.
     pub dbm: f64,
@@ -124,7 +136,7 @@ pub struct BeaconStrength {
 /// Distance to a radio beacon, measured by time of flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeaconRange {
-    /// Number of the beacon, constant while the daemon runs.
+    /// Number of the beacon, the same in each run.
     pub beacon: u16,
     /// Measured distance, metres.
     pub range_m: f64,

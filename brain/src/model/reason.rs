@@ -95,6 +95,10 @@ named_enum! {
         NoMap => "no-map",
         /// Nothing but the wheels tells the heading, so there is no map.
         NoHeading => "no-heading",
+        /// Beacons are in range.
+        BeaconsHeard => "beacons-heard",
+        /// Too few beacons are in range.
+        BeaconsSilent => "beacons-silent",
         /// What is not swept yet cannot be reached.
         RestOutOfReach => "rest-out-of-reach",
         /// Less than half of what was asked could be swept.

@@ -34,6 +34,8 @@ pub(crate) struct Situation<'step> {
     pub(crate) config: &'step BrainConfig,
     /// A sensor besides the wheels measures the heading; without one, no map is kept.
     pub(crate) knows_heading: bool,
+    /// Beacons are in range that tell the heading of a robot that drives, sooner or later.
+    pub(crate) hears_beacons: bool,
     /// Why the robot's gyro does not count now; `None` = it does, or there never was one.
     pub(crate) gyro_fault: Option<GyroFault>,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.

@@ -1,5 +1,6 @@
 //! The brain from outside; one program, so that it is linked once.
 
+mod beacons;
 mod behavior;
 mod contours;
 mod dock_access;

@@ -292,6 +292,8 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("unswept-floor", None),
     ("off-the-way", None),
     ("no-heading", None),
+    ("beacons-heard", None),
+    ("beacons-silent", None),
     ("obstructed", Some(Trouble::Route)),
     ("gyro-scale", None),
     ("mapped-not-met", Some(Trouble::Place)),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use brain::{Cell, CellKnowledge, Map, StoredMap, SurfaceKind};
+use brain::{Cell, CellKnowledge, KnownBeacon, Map, StoredMap, SurfaceKind};
 
 use crate::ContentHash;
 
@@ -48,6 +48,7 @@ impl ContentHash {
         hash.add_rooms(map);
         hash.add_dock(map.dock_location());
         hash.add_annotations(map.annotations());
+        hash.add_beacons(map.beacons());
         hash.add_swept(&map.swept_runs());
         for cell in swept_cells(&map.swept_runs()) {
             let sweeping = map.cell_passes(Cell { x: cell.1, y: cell.0 });
@@ -71,8 +72,24 @@ impl ContentHash {
         }
         hash.add_dock(map.dock_location());
         hash.add_annotations(map.annotations());
+        hash.add_beacons(map.beacons());
         hash.add(map.room_count() as u64);
         hash
+    }
+
+    fn add_beacons(&mut self, beacons: &[KnownBeacon]) {
+        for beacon in beacons {
+            self.add(beacon.number);
+            for length_m in [
+                beacon.place.x_m,
+                beacon.place.y_m,
+                beacon.bias_m,
+                beacon.sigma_m,
+                beacon.place_sigma_m,
+            ] {
+                self.add_bits(length_m);
+            }
+        }
     }
 
     pub(crate) fn add_cell(&mut self, cell: Cell) {

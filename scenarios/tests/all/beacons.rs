@@ -137,3 +137,59 @@ fn a_relax_without_gyro_keeps_its_place_by_how_far_beacons_are() {
         "{heard:?}, without beacons {alone:?}"
     );
 }
+
+/// So long a Relax bounces before its home is kept.
+const LOCATED_MS: u64 = 5 * MINUTE_MS;
+/// Distances between kept beacons are wrong by less than this, metres.
+const APART_M: f64 = 0.8;
+/// In the next run the heading is known after so long, seconds: announcement, and the first decimetres away from the dock.
+const KNOWN_SOON_S: u64 = 12;
+
+/// Seconds until the robot knows its heading, of so many at most.
+fn heading_after_s(household: &mut Household) -> Option<u64> {
+    household.pass_until(120, |household| {
+        let brain = household.host().and_then(Host::brain);
+        brain.is_some_and(|brain| brain.usual_strategy() != StrategyName::Statistical)
+    })
+}
+
+#[test]
+fn the_next_run_begins_with_the_beacons_of_the_home() {
+    let scene = relax("two-room-flat");
+    for seed in 1..=3 {
+        let mut first = cleaning(&scene, seed).with_beacons(scene.beacons(seed, BEACONS));
+        first.pass_ms(LOCATED_MS);
+        let kept = first
+            .host()
+            .and_then(Host::brain)
+            .map(|brain| brain.map().stored())
+            .expect("a brain");
+        let beacons = scene.beacons(seed, BEACONS);
+        let (places, known) = (beacons.places(), kept.beacons());
+        assert_eq!(known.len(), BEACONS, "seed {seed}");
+        // The whole picture may lie askew, and the map with it.
+        for pair in known.windows(2) {
+            let [one, other] = [&pair[0], &pair[1]].map(|known| places[usize::from(known.number)]);
+            let true_m = (one.0 - other.0).hypot(one.1 - other.1);
+            let told_m = pair[0].place.distance_m(pair[1].place);
+            assert!(
+                (told_m - true_m).abs() < APART_M,
+                "seed {seed}: {told_m:.2} m between {pair:?}, {true_m:.2} m"
+            );
+        }
+        let run = RunSettings {
+            strategy: StrategyName::Systematic,
+            ..settings(seed, 0)
+        };
+        let next = |household: Household| {
+            let mut household = household.with_beacons(scene.beacons(seed, BEACONS));
+            household.pass_ms(5_000);
+            start_cleaning(&mut household, StrategyName::Systematic);
+            heading_after_s(&mut household)
+        };
+        let anew = next(household(&scene, &run));
+        let soon = next(household(&scene, &run).with_map(kept));
+        assert!(soon.is_some_and(|after_s| after_s <= KNOWN_SOON_S), "{soon:?}");
+        assert!(anew.is_none_or(|after_s| after_s > 2 * KNOWN_SOON_S), "{anew:?}");
+    }
+}

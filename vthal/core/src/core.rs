@@ -149,7 +149,7 @@ impl Core {
             Input::BoardButtons { down } => self.board_buttons(now_us, down, outputs),
             Input::Beacon(signal) => {
                 if let Some(brain_session) = &mut self.brain_session {
-                    brain_session.observer.take_beacon(signal);
+                    brain_session.observer.take_beacon(now_us, signal);
                 }
             }
             Input::Told { level, text } => self.teller(now_us, outputs).log_of_shell(level, text),

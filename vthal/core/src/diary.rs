@@ -79,6 +79,8 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::FollowWall => "Began to follow a wall".to_owned(),
         DecisionKind::LeaveOutGyro => "Left its gyro out of the estimate of its position".to_owned(),
         DecisionKind::TakeUpGyro => "Uses its gyro again".to_owned(),
+        DecisionKind::FindHeading => "Drives about to find its heading".to_owned(),
+        DecisionKind::HeadingFound => format!("Found its heading after {value:.0} m"),
         DecisionKind::LeaveWall => "Left the wall".to_owned(),
         DecisionKind::Withdraw => "Undid the last part of the map".to_owned(),
         DecisionKind::Spiral => "Began a spiral".to_owned(),

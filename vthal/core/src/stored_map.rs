@@ -1,19 +1,20 @@
 //! Bytes of a stored map, for the disk and for the beginning of a recording.
 //!
 //! `RVACMAP`, a version byte, the body, and a CRC-32 (IEEE 802.3) over everything before it, low byte first. Since version
-//! 10 the body is a [`Body`] in the postcard format, and since version 11 a [`Past`] follows it. Versions 1 to 9 are read by [`legacy`].
+//! 10 the body is a [`Body`] in the postcard format, since version 11 a [`Past`] follows it, and since version 12 the [`Beacons`] follow
+//! that. Versions 1 to 9 are read by [`legacy`].
 
 mod annotations;
 mod body;
 mod legacy;
 
-use body::{Body, Past};
+use body::{Beacons, Body, Past};
 use brain::{StoredMap, StoredMapError};
 use serde::de::DeserializeOwned;
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 11;
+const VERSION: u8 = 12;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 
@@ -89,10 +90,14 @@ pub fn decode(bytes: &[u8]) -> Result<StoredMap, DecodeError> {
         11.. => reader.take(DecodeError::Number)?,
         _ => Past::new(),
     };
+    let beacons: Beacons = match version {
+        12.. => reader.take(DecodeError::Number)?,
+        _ => Beacons::new(),
+    };
     if !reader.rest.is_empty() {
         return Err(DecodeError::Trailing);
     }
-    Ok(body.into_map(past)?)
+    Ok(body.into_map(past, beacons)?)
 }
 
 /// What is left to read.

@@ -181,6 +181,10 @@ mod tests {
         }
     }
 
+    /// Numbers that the names of two beacons give.
+    const HALL: u16 = 28_556;
+    const KITCHEN: u16 = 25_801;
+
     #[test]
     fn distances_get_numbers_and_deviations() {
         let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
@@ -195,15 +199,18 @@ mod tests {
         assert_eq!(
             heard.signals,
             [
-                range(0, 3.21, 0.2),
-                range(1, 0.5, 0.1),
+                range(HALL, 3.21, 0.2),
+                range(KITCHEN, 0.5, 0.1),
                 BeaconSignal::Strength(BeaconStrength {
-                    beacon: 0,
+                    beacon: HALL,
                     dbm: -63.0
                 }),
             ]
         );
-        assert_eq!(heard.new, [("hall".to_owned(), 0), ("kitchen".to_owned(), 1)]);
+        assert_eq!(
+            heard.new,
+            [("hall".to_owned(), HALL), ("kitchen".to_owned(), KITCHEN)]
+        );
         assert!(heard.is_speaking);
         assert_eq!(heard.refused, None);
         assert_eq!(decoder.take(Duration::ZERO, LINES.as_bytes()).new, []);

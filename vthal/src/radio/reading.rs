@@ -35,6 +35,11 @@ impl BeaconName {
         let fits = (1..=NAME_MAX).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_graphic());
         fits.then(|| Self(text.to_owned())).ok_or(NoName)
     }
+
+    /// The text.
+    pub(super) fn as_str(&self) -> &str {
+        &self.0
+    }
 }
 
 impl TryFrom<String> for BeaconName {

@@ -144,6 +144,7 @@ fn records() -> Vec<Record> {
                 dbm: -71.0,
             }),
         ],
+        beacons_in_range: 3,
         inhibits: Inhibits::from_names(["wheel-drop"]),
         ..Observation::default()
     };
@@ -330,7 +331,7 @@ fn fields_have_the_names_that_they_always_had() {
         (
             "/observations",
             "time_us left_m right_m gyro_rad contacts cliffs wheel_drop proximity dock_beams docked battery charge_flow \
-             currents_a inhibits link_up speed_share beacons strengths",
+             currents_a inhibits link_up speed_share beacons strengths beacons_in_range",
         ),
         ("/commands", "time_us command"),
         ("/decisions", "motion cleaners arm tones decisions"),

@@ -89,7 +89,8 @@ impl Behavior {
             return Err(JobRefusal::AlreadyRunning);
         }
         self.startable()?;
-        if kind == JobKind::Clean(StrategyName::Systematic) && !self.facts.knows_heading {
+        let gets_heading = self.facts.knows_heading || self.facts.hears_beacons;
+        if kind == JobKind::Clean(StrategyName::Systematic) && !gets_heading {
             return Err(JobRefusal::NoHeading);
         }
         if self.facts.docked && self.facts.touching {

@@ -166,6 +166,7 @@ mod tests {
                 beams: &beams,
                 config: &config,
                 knows_heading: true,
+                hears_beacons: false,
                 gyro_fault: None,
                 touching: false,
                 at_cliff: false,

@@ -85,7 +85,7 @@ impl Behavior {
         self.no_current_tries = 0;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
-            if !self.facts.knows_heading {
+            if !self.facts.knows_heading && !self.facts.hears_beacons {
                 context.decide(DecisionKind::KeepNoMap, Reason::NoHeading, 0.0);
             }
         }

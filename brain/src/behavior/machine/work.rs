@@ -72,15 +72,20 @@ impl Behavior {
     }
 
     /// Ends a job that needs a map and has no heading to draw it by. A gyro that was lost is waited for: until then the wheels are
-    /// counted, and nothing is drawn. Then the robot drives home if it knows where that is.
+    /// counted, and nothing is drawn. Then the robot drives home if it knows where that is. A job that has heard beacons goes on without a
+    /// heading.
     fn gives_up_without_heading(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
         let now_us = self.facts.now_us;
         let Some(job) = &mut self.job else { return false };
+        job.has_heard_beacons |= situation.hears_beacons;
         if situation.knows_heading {
             job.without_heading_us = None;
             return false;
         }
         let Some(fault) = situation.gyro_fault else {
+            if job.has_heard_beacons {
+                return false;
+            }
             self.end_job(Reason::NoHeading, context);
             return true;
         };

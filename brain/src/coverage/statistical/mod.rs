@@ -128,6 +128,19 @@ impl Task for Statistical {
 }
 
 impl Statistical {
+    /// For a task that has said itself why it cleans by statistics.
+    pub(crate) fn unannounced() -> Self {
+        Self {
+            has_begun: true,
+            ..Self::default()
+        }
+    }
+
+    /// Whether an evasion is in progress.
+    pub(crate) fn is_evading(&self) -> bool {
+        self.bounce.is_evading() || self.wall.is_evading()
+    }
+
     /// Records once how it cleans.
     fn begin(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         self.swath_m = situation.config.body.swath_m;

@@ -15,6 +15,7 @@ mod assignment;
 mod contact_offset;
 mod frontier;
 mod gain;
+mod heading_search;
 mod known_floor;
 mod new_obstacles;
 mod outline;
@@ -50,6 +51,7 @@ use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
 use gain::Gain;
+use heading_search::{HeadingSearch, HeadingSearchStep};
 use known_floor::KnownFloor;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use parameters::{SQUEEZE, SYSTEMATIC};
@@ -104,10 +106,14 @@ pub(crate) struct Systematic {
     shares: Shares,
     gain: Gain,
     way_out: WayOut,
+    heading_search: HeadingSearch,
 }
 
 impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        if let Some(plan) = self.find_heading(situation, context) {
+            return plan;
+        }
         self.discard_outdated(situation);
         if let Some(passed) = &mut self.passed
             && !situation.estimate.lost
@@ -154,6 +160,7 @@ impl Task for Systematic {
         self.way_out = WayOut::default();
         self.plan_progress = None;
         self.relocalization.interrupted();
+        self.heading_search.interrupted();
         if let Some(escape_bounce) = &mut self.escape_bounce {
             escape_bounce.interrupted();
         }
@@ -212,6 +219,18 @@ impl Systematic {
         self.shares = Shares::default();
         self.gain.begin_anew();
         true
+    }
+
+    /// Drives about while the robot must learn its heading from beacons.
+    fn find_heading(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
+        match self.heading_search.step(situation, context) {
+            HeadingSearchStep::Idle => None,
+            HeadingSearchStep::Over => {
+                self.interrupted();
+                None
+            }
+            HeadingSearchStep::Driving(plan) => Some(plan),
+        }
     }
 
     /// Relocalizes when the robot is lost on its map.

@@ -19,6 +19,8 @@ pub(super) struct Beacon {
     pub(super) bias_m: f64,
     /// Standard deviation of the range error that stays the same around a place, metres.
     pub(super) place_sigma_m: f64,
+    /// Share of its latest ranges that the estimate does not explain.
+    pub(super) unexplained: f64,
 }
 
 /// A range beside what the estimate predicts.
@@ -38,6 +40,7 @@ impl Beacon {
             place,
             bias_m: 0.0,
             place_sigma_m: RANGE.place_sigma_m,
+            unexplained: 0.0,
         }
     }
 

@@ -1,10 +1,12 @@
 //! An extended Kalman filter over the pose, the errors of the wheels and the positions of the beacons.
 
+mod known;
+
 use super::beacon::{BEACON, Beacon};
 use super::hop::{Hop, HopRange};
 use super::located_range::LocatedRange;
 use super::multilateration::{MeasuredRange, locate_beacon};
-use super::parameters::{FILTER, RANGE, SLIP};
+use super::parameters::{FILTER, KNOWN, RANGE, SLIP};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -37,6 +39,8 @@ pub(super) struct BeaconFilter {
     covariance: Vec<Vec<f64>>,
     /// Share of the latest ranges that the estimate does not explain.
     unexplained: f64,
+    /// How often that was so many that the pose counted as unknown.
+    slips: u32,
     /// Ranges to beacons that are not located yet.
     late: Vec<(u16, MeasuredRange)>,
 }
@@ -49,6 +53,7 @@ impl BeaconFilter {
             beacons: start.beacons.to_vec(),
             covariance: start.covariance,
             unexplained: 0.0,
+            slips: 0,
             late: Vec::new(),
         }
     }
@@ -63,14 +68,20 @@ impl BeaconFilter {
                 number += 1;
                 continue;
             }
-            self.beacons.remove(number);
-            let is_kept = |place: usize| !(at..at + BEACON).contains(&place);
+            self.forget(number);
+        }
+    }
+
+    /// Drops a beacon.
+    fn forget(&mut self, number: usize) {
+        let at = BEACONS + BEACON * number;
+        self.beacons.remove(number);
+        let is_kept = |place: usize| !(at..at + BEACON).contains(&place);
+        let mut place = 0..;
+        self.covariance.retain(|_| place.next().is_some_and(is_kept));
+        for row in &mut self.covariance {
             let mut place = 0..;
-            self.covariance.retain(|_| place.next().is_some_and(is_kept));
-            for row in &mut self.covariance {
-                let mut place = 0..;
-                row.retain(|_| place.next().is_some_and(is_kept));
-            }
+            row.retain(|_| place.next().is_some_and(is_kept));
         }
     }
 
@@ -103,7 +114,11 @@ impl BeaconFilter {
     /// Predicts the motion of a hop and updates with its ranges.
     pub(super) fn take(&mut self, hop: &Hop) {
         self.advance(hop);
+        if let Some(anchor) = &hop.anchor {
+            self.compare_with_map(anchor);
+        }
         self.watch_slip(hop);
+        self.forget_moved();
         for range in &hop.ranges {
             match self.index_of(range.beacon) {
                 Some(beacon) => self.compare(range, beacon),
@@ -132,10 +147,15 @@ impl BeaconFilter {
             let at = BEACONS + BEACON * number;
             let own_m2 = libm::pow(self.widest_m(0), 2.0) + libm::pow(self.widest_m(at), 2.0);
             let is_far = innovation.off_m.abs() > SLIP.far_sigmas * libm::sqrt(own_m2 + innovation.noise_m2);
-            self.unexplained += SLIP.share * (f64::from(u8::from(is_far)) - self.unexplained);
+            let far = f64::from(u8::from(is_far));
+            self.unexplained += SLIP.share * (far - self.unexplained);
+            if let Some(known) = self.beacons.get_mut(number) {
+                known.unexplained += KNOWN.share * (far - known.unexplained);
+            }
         }
         if self.unexplained > SLIP.unexplained_max {
             self.unexplained = 0.0;
+            self.slips = self.slips.saturating_add(1);
             self.grow(0, 0, SLIP.sigma_m * SLIP.sigma_m);
             self.grow(1, 1, SLIP.sigma_m * SLIP.sigma_m);
             self.grow(2, 2, SLIP.sigma_rad * SLIP.sigma_rad);

@@ -27,6 +27,29 @@ pub(super) struct Hop {
     pub(super) touched: bool,
     /// Mean range to each beacon, with the standard deviation that noise alone gives it.
     pub(super) ranges: Vec<HopRange>,
+    /// Its end, beside the motion.
+    pub(super) end: HopEnd,
+    /// The pose at its end by a map, now and then.
+    pub(super) anchor: Option<Anchor>,
+}
+
+/// When and where a hop ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HopEnd {
+    /// Time, microseconds.
+    pub(super) time_us: u64,
+    /// Pose by odometry.
+    pub(super) odom: Pose2,
+    /// Pose at which the map was drawn.
+    pub(super) drawn: Pose2,
+}
+
+/// A pose that a map gives, with its standard deviations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anchor {
+    pub(super) pose: Pose2,
+    pub(super) sigma_m: f64,
+    pub(super) sigma_rad: f64,
 }
 
 /// The range of a hop to a beacon.
@@ -108,6 +131,7 @@ impl HopBuilder {
                 self.add(*range);
             }
         }
+        self.hop.end.time_us = observation.time_us;
         let over = self.hop.length_m >= HOP.length_m || self.turned_rad >= HOP.turn_rad;
         over.then(|| self.end())
     }

@@ -18,14 +18,16 @@ mod smoother;
 mod weight;
 
 use super::lift::Lift;
+use crate::mapping::Keyframe;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
+use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 use filter::BeaconFilter;
-use hop::{Hop, HopBuilder};
+use hop::{Anchor, Hop, HopBuilder, HopEnd, HopRange};
 pub(super) use located_range::LocatedRange;
-use parameters::HEADING;
+use parameters::{BATCH, HEADING, KNOWN, REDRAW};
 use smoother::BatchSmoother;
 
 /// Localization by beacons.
@@ -36,6 +38,34 @@ pub(super) struct Beacons {
     lift: Lift,
     located_ranges: Vec<LocatedRange>,
     tells_heading: bool,
+    /// Beacons that an earlier run has located.
+    known: Vec<KnownBeacon>,
+    /// Distance since the start between known beacons, metres, while it is not sure that they are where they were.
+    trial_m: Option<f64>,
+    anchors: Anchors,
+    drawing: Drawing,
+}
+
+/// Comparisons with the pose in a known map.
+#[derive(Clone, Copy, Debug, Default)]
+struct Anchors {
+    since_m: f64,
+    count: u32,
+}
+
+/// When the map was drawn again.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drawing {
+    began_us: u64,
+    last_us: u64,
+}
+
+/// The present estimate, and where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PriorEstimate {
+    pub(super) estimate: PoseEstimate,
+    /// A known map gives it, reliably.
+    pub(super) is_by_map: bool,
 }
 
 #[derive(Debug)]
@@ -56,7 +86,43 @@ impl Beacons {
             lift: Lift::default(),
             located_ranges: Vec::new(),
             tells_heading: false,
+            known: Vec::new(),
+            trial_m: None,
+            anchors: Anchors::default(),
+            drawing: Drawing::default(),
         }
+    }
+
+    /// Begins with beacons that an earlier run has located, in the frame of the present map.
+    pub(super) fn begin_with(&mut self, known: &[KnownBeacon]) {
+        self.known = known.to_vec();
+    }
+
+    /// The beacons as they are worth keeping; `None` where they may not lie in the frame of the map.
+    pub(super) fn to_keep(&self, is_by_map: bool) -> Option<Vec<KnownBeacon>> {
+        let is_aligned = !is_by_map || self.anchors.count >= KNOWN.anchors_min;
+        let is_sure = self.tells_heading && self.trial_m.is_none() && is_aligned;
+        match &self.stage {
+            BeaconStage::Following(filter, _) if is_sure => Some(filter.known()),
+            _ => None,
+        }
+    }
+
+    /// Better poses of the path so far with which the map should be drawn again, now and then.
+    pub(super) fn redraw(&mut self, now_us: u64) -> Option<Vec<Keyframe>> {
+        let BeaconStage::Following(_, Some(batch)) = &mut self.stage else {
+            return None;
+        };
+        let Drawing { began_us, last_us } = self.drawing;
+        let pause_us = REDRAW
+            .every_us
+            .max(last_us.saturating_sub(began_us) / REDRAW.elapsed_divisor);
+        if now_us < last_us.max(began_us).saturating_add(pause_us) {
+            return None;
+        }
+        let keyframes = batch.redraw()?;
+        self.drawing.last_us = now_us;
+        Some(keyframes)
     }
 
     /// Takes the motion and ranges of a step; `before` is the present estimate. Returns an estimate at the end of each hop once the
@@ -65,14 +131,20 @@ impl Beacons {
         &mut self,
         observation: &Observation,
         advance: Advance,
-        before: PoseEstimate,
+        before: PriorEstimate,
     ) -> Option<PoseEstimate> {
         self.located_ranges.clear();
+        if self.drawing.began_us == 0 {
+            self.drawing.began_us = observation.time_us;
+        }
         if self.was_carried(observation, advance) {
             return None;
         }
         let hop = self.gathering.take(observation, advance);
-        let followed = hop.and_then(|hop| self.use_hop(hop, before));
+        let followed = hop.and_then(|hop| {
+            let hop = self.anchored(hop, before);
+            self.use_hop(hop, before.estimate)
+        });
         let estimate = self.go_on().or(followed);
         self.judge_heading(estimate);
         estimate
@@ -100,10 +172,74 @@ impl Beacons {
         }
     }
 
+    /// Adds to a hop where it ended by the other estimators.
+    fn anchored(&mut self, hop: Hop, before: PriorEstimate) -> Hop {
+        let PriorEstimate { estimate, is_by_map } = before;
+        self.anchors.since_m += hop.length_m;
+        let is_due = is_by_map && self.anchors.since_m >= KNOWN.anchor_every_m;
+        if is_due {
+            self.anchors.since_m = 0.0;
+            self.anchors.count = self.anchors.count.saturating_add(1);
+        }
+        Hop {
+            end: HopEnd {
+                odom: estimate.odom,
+                drawn: estimate.pose,
+                ..hop.end
+            },
+            anchor: is_due.then_some(Anchor {
+                pose: estimate.pose,
+                sigma_m: estimate.sigma_m.max(KNOWN.anchor_sigma_min_m),
+                sigma_rad: estimate.sigma_rad.max(KNOWN.anchor_sigma_min_rad),
+            }),
+            ..hop
+        }
+    }
+
+    /// Begins between known beacons, if the robot hears some of them.
+    fn begin_between_known(&mut self, hop: &Hop, before: PoseEstimate) -> Option<PoseEstimate> {
+        let is_known = |range: &&HopRange| self.known.iter().any(|known| known.number == range.beacon);
+        if hop.ranges.iter().filter(is_known).count() < BATCH.beacons_min {
+            return None;
+        }
+        let mut filter = BeaconFilter::between(&self.known, before);
+        filter.take(&Hop {
+            step: Pose2::IDENTITY,
+            ..hop.clone()
+        });
+        let estimate = filter.estimate();
+        self.trial_m = Some(0.0);
+        self.stage = BeaconStage::Following(Box::new(filter), None);
+        Some(estimate)
+    }
+
+    /// Whether known beacons turn out to be elsewhere, or the robot: then all is solved anew.
+    fn fails_trial(&mut self, length_m: f64) -> bool {
+        let (BeaconStage::Following(filter, _), Some(trial_m)) = (&self.stage, &mut self.trial_m) else {
+            return false;
+        };
+        *trial_m += length_m;
+        let fails = filter.slips() >= KNOWN.trial_slips;
+        if fails || *trial_m >= KNOWN.trial_m {
+            self.trial_m = None;
+        }
+        if fails {
+            self.known.clear();
+            self.stage = BeaconStage::Silent;
+        }
+        fails
+    }
+
     fn use_hop(&mut self, hop: Hop, before: PoseEstimate) -> Option<PoseEstimate> {
+        if self.fails_trial(hop.length_m) {
+            return None;
+        }
         match &mut self.stage {
             BeaconStage::Carried => None,
             BeaconStage::Silent => {
+                if let Some(estimate) = self.begin_between_known(&hop, before) {
+                    return Some(estimate);
+                }
                 if !hop.ranges.is_empty() {
                     self.stage = BeaconStage::Initializing(Box::new(BatchSmoother::new(before)));
                 }

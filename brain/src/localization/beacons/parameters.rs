@@ -233,3 +233,69 @@ pub(super) const SLIP: SlipWatchParameters = SlipWatchParameters {
     sigma_m: 0.4,
     sigma_rad: 0.3,
 };
+
+/// Beacons and places that are known from elsewhere.
+pub(super) struct KnownParameters {
+    /// Least standard deviations of the pose at the start between known beacons: the map may lie a little askew on the dock.
+    pub(super) start_sigma_min_m: f64,
+    pub(super) start_sigma_min_rad: f64,
+    /// Least standard deviation of a known beacon, metres.
+    pub(super) beacon_sigma_min_m: f64,
+    /// Standard deviation of the bias of a known beacon, metres.
+    pub(super) bias_sigma_m: f64,
+    /// Within this distance from the start, metres,
+    pub(super) trial_m: f64,
+    /// so many slips say that the robot is elsewhere or that the beacons were moved.
+    pub(super) trial_slips: u32,
+    /// Weight of one range in the share of a beacon's that are not explained.
+    pub(super) share: f64,
+    /// Beyond this share the beacon was moved,
+    pub(super) moved_share: f64,
+    /// while those of the others are below this,
+    pub(super) others_share: f64,
+    /// and there are so many beacons.
+    pub(super) others_min: usize,
+    /// Distance between two comparisons with the pose in a known map, metres: its errors are alike over a while.
+    pub(super) anchor_every_m: f64,
+    /// Least standard deviations of such a pose.
+    pub(super) anchor_sigma_min_m: f64,
+    pub(super) anchor_sigma_min_rad: f64,
+    /// After so many comparisons the beacons lie in the frame of the map.
+    pub(super) anchors_min: u32,
+}
+
+pub(super) const KNOWN: KnownParameters = KnownParameters {
+    start_sigma_min_m: 0.05,
+    start_sigma_min_rad: 0.06,
+    beacon_sigma_min_m: 0.08,
+    bias_sigma_m: 0.1,
+    trial_m: 10.0,
+    trial_slips: 2,
+    share: 0.02,
+    moved_share: 0.85,
+    others_share: 0.3,
+    others_min: 3,
+    anchor_every_m: 1.0,
+    anchor_sigma_min_m: 0.2,
+    anchor_sigma_min_rad: 0.08,
+    anchors_min: 15,
+};
+
+/// When the map is drawn again at better poses.
+pub(super) struct RedrawParameters {
+    /// Root mean square of the change of past poses, metres.
+    pub(super) change_m: f64,
+    /// Least time between two, microseconds,
+    pub(super) every_us: u64,
+    /// and its least share of the time so far, as a divisor.
+    pub(super) elapsed_divisor: u64,
+    /// One hop in so many gives a pose.
+    pub(super) hops: usize,
+}
+
+pub(super) const REDRAW: RedrawParameters = RedrawParameters {
+    change_m: 0.08,
+    every_us: 60_000_000,
+    elapsed_divisor: 8,
+    hops: 2,
+};

@@ -9,10 +9,12 @@ use core::task::Poll;
 
 use super::beacon::{BEACON, Beacon};
 use super::filter::{BeaconFilter, ERRORS, InitialState};
-use super::hop::{Hop, HopRange};
+use super::hop::{Anchor, Hop, HopRange};
 use super::multilateration::{MeasuredRange, locate_beacon};
-use super::parameters::{BATCH, FILTER, RANGE};
+use super::parameters::{BATCH, FILTER, RANGE, REDRAW};
+use super::weight::weight;
 use crate::localization::skyline::{Factor, Solution, Summation, System};
+use crate::mapping::Keyframe;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::pose_estimate::PoseEstimate;
@@ -99,6 +101,33 @@ impl BatchSmoother {
     /// Whether the path is too long for a solution, so that it should start again.
     pub(super) fn is_hopeless(&self) -> bool {
         self.hops.len() >= BATCH.hops_max
+    }
+
+    /// The poses of the path so far by the last solution, if they differ from those at which the map was drawn; from now on it counts as
+    /// drawn at them.
+    pub(super) fn redraw(&mut self) -> Option<Vec<Keyframe>> {
+        let solved = self.solved.as_ref()?;
+        let ends = || self.hops.iter().zip(solved.poses.iter().skip(1));
+        let (mut squares_m2, mut count) = (0.0, 0_u32);
+        for (hop, pose) in ends() {
+            squares_m2 += libm::pow(hop.end.drawn.position().distance_m(pose.position()), 2.0);
+            count += 1;
+        }
+        if squares_m2 < REDRAW.change_m * REDRAW.change_m * f64::from(count.max(1)) {
+            return None;
+        }
+        let keyframes = ends()
+            .step_by(REDRAW.hops)
+            .map(|(hop, pose)| Keyframe {
+                time_us: hop.end.time_us,
+                odom_from_base: hop.end.odom,
+                map_from_base: *pose,
+            })
+            .collect();
+        for (hop, pose) in self.hops.iter_mut().zip(solved.poses.iter().skip(1)) {
+            hop.end.drawn = *pose;
+        }
+        Some(keyframes)
     }
 
     /// Does the next step of a solution in progress. Returns the filter once it is there and certain.
@@ -244,6 +273,9 @@ impl BatchProblem {
                 errors_at: common,
             };
             measure_hop(hop, &ends, &mut system);
+            if let Some(anchor) = &hop.anchor {
+                measure_anchor(anchor, (*to, POSE * (number + 1)), &mut system);
+            }
             budget.spend(HOP_WORK).await;
         }
         let (mut misfit, mut count) = (0.0, 0_u32);
@@ -377,6 +409,20 @@ struct HopEnds {
     pose_at: usize,
     /// Row of the wheels' errors.
     errors_at: usize,
+}
+
+/// Adds the residuals of a pose, with its row in the system, beside what a map says of it.
+fn measure_anchor(anchor: &Anchor, (pose, at): (Pose2, usize), system: &mut System) {
+    let off = [
+        (pose.x_m - anchor.pose.x_m) / anchor.sigma_m,
+        (pose.y_m - anchor.pose.y_m) / anchor.sigma_m,
+        normalize_rad(pose.heading_rad - anchor.pose.heading_rad) / anchor.sigma_rad,
+    ];
+    let sigmas = [anchor.sigma_m, anchor.sigma_m, anchor.sigma_rad];
+    for (number, (off, sigma)) in off.into_iter().zip(sigmas).enumerate() {
+        let by_root = libm::sqrt(weight(off));
+        measure(system, by_root * off, &[(at + number, by_root / sigma)]);
+    }
 }
 
 /// Adds the residuals of a hop.

@@ -3,12 +3,17 @@
 use super::Localization;
 use super::consistency_monitor::ConsistencyMonitor;
 use super::parameters::PLACING;
+use crate::localization::beacons::PriorEstimate;
 use crate::localization::line_slam::LineSlam;
 use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
 use crate::model::config::BrainConfig;
+use crate::model::known_beacon::KnownBeacon;
 use crate::model::pose_estimate::PoseEstimate;
+
+/// The map takes the places of the beacons this often, microseconds.
+const KEEP_BEACONS_US: u64 = 5_000_000;
 
 /// What corrects odometry. Radio beacons run beside it: they correct odometry unless a known map does, and Monte Carlo localization
 /// uses their ranges.
@@ -89,6 +94,31 @@ impl Localization {
             Estimator::LineSlam(_) => EstimatorKind::LineSlam,
             Estimator::Odometry => EstimatorKind::Odometry,
         }
+    }
+
+    /// The present estimate, for the beacons.
+    pub(super) fn prior(&self) -> PriorEstimate {
+        PriorEstimate {
+            estimate: self.estimate(),
+            is_by_map: self
+                .estimator
+                .known_map()
+                .is_some_and(|known| known.tracker.is_settled()),
+        }
+    }
+
+    /// Begins with beacons that an earlier run has located, in the frame of the present map.
+    pub(crate) fn begin_with_beacons(&mut self, known: &[KnownBeacon]) {
+        self.beacons.begin_with(known);
+    }
+
+    /// The located beacons as they are worth keeping with the map, now and then.
+    pub(crate) fn beacons_to_keep(&mut self, now_us: u64) -> Option<Vec<KnownBeacon>> {
+        if now_us < self.beacons_kept_us.saturating_add(KEEP_BEACONS_US) {
+            return None;
+        }
+        self.beacons_kept_us = now_us;
+        self.beacons.to_keep(self.estimator.known_map().is_some())
     }
 
     /// From now on [`Self::refine`] localizes in a copy of `map`, starting from [`Self::estimate`]. Equal seeds give equal poses.

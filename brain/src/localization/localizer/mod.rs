@@ -73,6 +73,7 @@ pub struct Localization {
     has_just_docked: bool,
     lift: Lift,
     learnt_us: u64,
+    beacons_kept_us: u64,
 }
 
 impl Localization {
@@ -95,6 +96,7 @@ impl Localization {
             has_just_docked: false,
             lift: Lift::default(),
             learnt_us: 0,
+            beacons_kept_us: 0,
         }
     }
 
@@ -187,6 +189,10 @@ impl Localization {
             let at = self.pose().position();
             self.fingerprints.learn(at);
         }
+        if self.active_estimator() == EstimatorKind::Beacons {
+            let keyframes = self.beacons.redraw(observation.time_us)?;
+            return Some(MapCorrection::Redraw { keyframes });
+        }
         let first_run = self.estimator.first_run_mut()?;
         let keyframes = first_run.slam.redraw(observation.time_us)?;
         Some(MapCorrection::Redraw { keyframes })
@@ -203,7 +209,7 @@ impl Localization {
     }
 
     fn update_pose(&mut self, observation: &Observation, advance: Advance) {
-        let by_beacons = self.beacons.follow(observation, advance, self.estimate());
+        let by_beacons = self.beacons.follow(observation, advance, self.prior());
         self.leave_useless_map(observation.time_us);
         let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
         match (self.active_estimator(), by_beacons) {

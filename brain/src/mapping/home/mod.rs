@@ -20,6 +20,7 @@ use super::{CELL_M, Cell, Raster, StoredMap};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{Gradual, StepBudget, at_once};
+use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 use settling::KnownHome;
@@ -76,6 +77,8 @@ pub(super) struct HomeMap {
     /// Cells that are forbidden until the next job.
     pub(super) pockets: Vec<Cell>,
     pub(super) annotations: Annotations,
+    /// Radio beacons with places in the frame of the map.
+    pub(super) beacons: Vec<KnownBeacon>,
     /// Bounds of the grid when no-go zones were last painted.
     pub(super) painted: Option<CellBox>,
 }
@@ -104,6 +107,7 @@ impl HomeMap {
             redrawn: 0,
             pockets: Vec::new(),
             annotations: Annotations::default(),
+            beacons: Vec::new(),
             painted: None,
         }
     }
@@ -315,6 +319,7 @@ impl HomeMap {
         self.base = self.grid.clone();
         self.dock = stored.dock_location();
         self.annotations = stored.annotations().clone();
+        self.beacons = stored.beacons().to_vec();
         self.paint_no_go();
         self.derived = Derived::compute(&mut self.grid, budget).await;
         if let Some(dock) = self.dock.pose() {

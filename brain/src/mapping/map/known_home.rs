@@ -11,6 +11,7 @@ use crate::mapping::{
 };
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
+use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -31,6 +32,17 @@ impl Map {
     /// Notes how sure the robot is of its place in a known home. What it has drawn shortly before a doubt is dropped.
     pub(crate) fn note_trust(&mut self, trust: PlaceTrust, time_us: u64) {
         self.home.note_trust(trust, time_us);
+    }
+
+    /// Radio beacons whose places are known.
+    #[must_use]
+    pub fn beacons(&self) -> &[KnownBeacon] {
+        &self.home.beacons
+    }
+
+    /// The places of radio beacons have become known better.
+    pub(crate) fn keep_beacons(&mut self, beacons: Vec<KnownBeacon>) {
+        self.home.beacons = beacons;
     }
 
     /// Share of the floor driven in earlier runs that the robot reaches from its dock, 0..=1. Below 1 something that infrared sees

@@ -11,6 +11,7 @@ use crate::mapping::occupancy_grid::OccupancyGrid;
 use crate::mapping::rooms::Rooms;
 use crate::mapping::{Annotations, DockLocation, StoredMap};
 use crate::model::gradual::{Gradual, StepBudget, at_once};
+use crate::model::known_beacon::KnownBeacon;
 
 /// A copy of what is saved. It shares its cells with the map until the map writes to them.
 struct MapCopy {
@@ -20,6 +21,7 @@ struct MapCopy {
     rooms: Rooms,
     dock: DockLocation,
     annotations: Annotations,
+    beacons: Vec<KnownBeacon>,
 }
 
 impl MapCopy {
@@ -30,6 +32,7 @@ impl MapCopy {
             rooms: map.home.rooms.clone(),
             dock: map.home.dock,
             annotations: map.home.annotations.clone(),
+            beacons: map.home.beacons.clone(),
         }
     }
 
@@ -42,6 +45,7 @@ impl MapCopy {
             .await
             .with_dock_location(self.dock)
             .with_annotations(self.annotations)
+            .with_beacons(self.beacons)
     }
 }
 

@@ -16,6 +16,7 @@ use super::tile_grid::TILE_CELLS;
 use super::{Cell, CellKnowledge, DockLocation, Raster, SurfaceKind};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{StepBudget, at_once};
+use crate::model::known_beacon::KnownBeacon;
 
 /// Most cells of a stored map.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
@@ -35,6 +36,8 @@ pub struct StoredMap {
     /// Identity of the next new room.
     next_room: u16,
     annotations: Annotations,
+    /// Radio beacons with places in the frame of the map.
+    beacons: Vec<KnownBeacon>,
 }
 
 /// A run of equal cells; it may continue over several rows.
@@ -67,6 +70,7 @@ impl StoredMap {
             past: Vec::new(),
             next_room: 1,
             annotations: Annotations::default(),
+            beacons: Vec::new(),
         }
     }
 
@@ -106,6 +110,18 @@ impl StoredMap {
     #[must_use]
     pub fn with_annotations(self, annotations: Annotations) -> Self {
         Self { annotations, ..self }
+    }
+
+    /// Radio beacons whose places are known.
+    #[must_use]
+    pub fn beacons(&self) -> &[KnownBeacon] {
+        &self.beacons
+    }
+
+    /// The same map with these beacons.
+    #[must_use]
+    pub fn with_beacons(self, beacons: Vec<KnownBeacon>) -> Self {
+        Self { beacons, ..self }
     }
 
     /// Knowledge of each cell.
@@ -187,6 +203,7 @@ impl StoredMap {
             past: pasts,
             next_room: rooms.next_id(),
             annotations: Annotations::default(),
+            beacons: Vec::new(),
         }
     }
 

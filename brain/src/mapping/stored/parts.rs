@@ -1,7 +1,7 @@
 //! The plain parts of a stored map, for serialization.
 
 use core::fmt;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{CELLS_MAX, CellRun, SURFACE_BITS, StoredMap};
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
@@ -11,6 +11,7 @@ use crate::mapping::room_changes::CHANGES_MAX;
 use crate::mapping::{Annotations, Cell, DockLocation, RoomChange, RoomChanges, RoomSplit};
 use crate::model::geometry::Pose2;
 use crate::model::kept_place::KeptPlace;
+use crate::model::known_beacon::{KNOWN_BEACONS_MAX, KnownBeacon};
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::room_settings::RoomSettings;
 
@@ -47,6 +48,8 @@ pub struct StoredMapParts {
     pub room_settings: BTreeMap<u16, RoomSettings>,
     /// Saved zones and spots.
     pub places: Numbered<KeptPlace>,
+    /// Radio beacons.
+    pub beacons: Vec<KnownBeacon>,
 }
 
 /// Items with numbers that are never reused.
@@ -89,6 +92,8 @@ pub enum StoredMapError {
     RoomChange,
     /// Invalid room settings, or too many.
     RoomSettings,
+    /// A radio beacon that cannot be, twice the same, or too many.
+    Beacon,
 }
 
 impl fmt::Display for StoredMapError {
@@ -110,6 +115,7 @@ impl fmt::Display for StoredMapError {
             Self::Place => formatter.write_str("it keeps a place that cannot be"),
             Self::RoomChange => formatter.write_str("it has a change of rooms that cannot be"),
             Self::RoomSettings => formatter.write_str("it has settings of a room that cannot be"),
+            Self::Beacon => formatter.write_str("it has a radio beacon that cannot be"),
         }
     }
 }
@@ -137,6 +143,7 @@ impl StoredMap {
             undone_splits: words.rooms.undone.clone(),
             room_settings: words.settings.clone(),
             places: Numbered::of(words.places.next, &words.places.kept),
+            beacons: self.beacons.clone(),
         }
     }
 
@@ -147,6 +154,7 @@ impl StoredMap {
     pub fn from_parts(parts: StoredMapParts) -> Result<Self, StoredMapError> {
         parts.check_layers()?;
         parts.check_room_changes()?;
+        parts.check_beacons()?;
         if parts.names.len() > NAMES_MAX {
             return Err(StoredMapError::Name);
         }
@@ -182,6 +190,7 @@ impl StoredMap {
                 settings: parts.room_settings,
                 places,
             },
+            beacons: parts.beacons,
         })
     }
 }
@@ -226,6 +235,14 @@ impl StoredMapParts {
         let is_past = |run: &CellRun| run.value & !CellPast::BITS == 0;
         let are_pasts = self.past.iter().all(is_past);
         are_pasts.then_some(()).ok_or(StoredMapError::Past)
+    }
+
+    fn check_beacons(&self) -> Result<(), StoredMapError> {
+        let numbers: BTreeSet<u16> = self.beacons.iter().map(|beacon| beacon.number).collect();
+        let are_good = self.beacons.len() <= KNOWN_BEACONS_MAX
+            && numbers.len() == self.beacons.len()
+            && self.beacons.iter().all(KnownBeacon::is_possible);
+        are_good.then_some(()).ok_or(StoredMapError::Beacon)
     }
 
     /// Each change must name two different existing rooms.

@@ -143,6 +143,8 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("unswept-floor", "Some floor is not cleaned yet.", ""),
     entry("off-the-way", "It had left the planned route.", ""),
     entry("no-heading", "Nothing but the wheels tells this robot its heading, so it has no map to find rooms by.", ""),
+    entry("beacons-heard", "It hears radio beacons, which tell its heading once it has driven some way.", ""),
+    entry("beacons-silent", "It hears too few radio beacons.", "Check that the beacons and the robot's radio have power; its heading comes back by itself once it hears three."),
     entry("obstructed", "Too many obstacles are in the way.", "Clear the way."),
     entry("gyro-scale", "Calibrating the gyro at a wall.", ""),
     entry("gyro-frozen", "Its gyro repeats one value, so it is left out: only the wheels tell the heading, and it drives slowly.", "If it comes back, check the gyro's plug or have it replaced."),

@@ -1,5 +1,6 @@
 //! A Relax, which nothing but its wheels tells its heading, with and without sensors on its Linux board.
 
+use brain::StrategyName;
 use rvac_sim::{Household, Scene};
 use scenarios::{Table, Watched, relax};
 
@@ -7,6 +8,8 @@ const SEED: u64 = 4;
 /// How long each cleans, seconds.
 const CLEAN_S: u64 = 12 * 60;
 const BEACONS: usize = 4;
+/// After so long enough beacons were heard for a job in lanes, seconds.
+const HEARD_S: u64 = 5;
 
 fn row(table: &mut Table, what: &str, (scene, fit): (&Scene, impl FnOnce(Household) -> Household)) {
     let mut watched = Watched::new(scene, SEED).changed(fit);
@@ -54,5 +57,16 @@ fn a_relax_and_what_sits_on_its_board() {
                 .with_known_map()
         }),
     );
+    for (what, beacons) in [("four", BEACONS), ("three", 3)] {
+        let mut watched = Watched::new(&scene, SEED)
+            .changed(|household| household.with_beacons(scene.beacons(SEED, beacons)));
+        watched.pass_s(HEARD_S);
+        watched.clean(Some(StrategyName::Systematic));
+        watched.finish(CLEAN_S);
+        table.row(
+            &format!("two-room-flat ranges of {what} beacons, in lanes"),
+            &watched,
+        );
+    }
     table.compare();
 }

@@ -250,7 +250,7 @@ fn is_behind(home: &Home, from: (f64, f64), to: (f64, f64)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beacons, Measured};
+    use super::{Beacons, LongRanges, Measured};
     use crate::{Home, Pose, RobotModel};
 
     /// Two rooms with a wall between them and a door at its upper end.
@@ -284,5 +284,78 @@ mod tests {
         assert!(seen.len() > asked * 9 / 10, "{} of {asked}", seen.len());
         let (behind, _) = errors_m(Pose::new(0.6, 0.6, 0.0));
         assert!(behind.len() < seen.len(), "fewer answers come through a wall");
+    }
+
+    /// Errors of the ranges to the first beacon, at places all over the first room, a second at each.
+    fn errors_all_over_m(beacons: Beacons) -> Vec<Vec<f64>> {
+        let model = RobotModel::by_name("sr8730").unwrap();
+        let home = Home::from_floorplan("flat", PLAN, &model).unwrap();
+        let mut beacons = beacons;
+        let (x_m, y_m) = beacons.places()[0];
+        let mut places = Vec::new();
+        for number in 0..400 {
+            let (column, row) = (number % 20, number / 20);
+            let at = Pose::new(0.1 + 0.14 * f64::from(column), 0.1 + 0.14 * f64::from(row), 0.0);
+            let mut errors = Vec::new();
+            for _ in 0..4_000 {
+                if let Some((0, Measured::Range(range_m))) = beacons.step(&home, at) {
+                    errors.push(range_m - libm::hypot(x_m - at.x_m, y_m - at.y_m));
+                }
+            }
+            places.push(errors);
+        }
+        places
+    }
+
+    fn flat_beacons(seed: u64) -> Beacons {
+        let model = RobotModel::by_name("sr8730").unwrap();
+        let home = Home::from_floorplan("flat", PLAN, &model).unwrap();
+        Beacons::around(&home, 4, seed)
+    }
+
+    #[test]
+    fn a_share_of_all_places_has_ranges_that_are_too_long_by_an_amount_of_its_own() {
+        let long = LongRanges::Share {
+            share: 0.25,
+            least_m: 1.0,
+            most_m: 2.0,
+        };
+        let (mut all, mut too_long) = (0_u32, 0_u32);
+        for seed in 1..=8 {
+            for errors in errors_all_over_m(flat_beacons(seed).with_long_ranges(long)) {
+                assert!(errors.len() > 4, "{} ranges at a place", errors.len());
+                let mean_m = errors.iter().sum::<f64>() / errors.len() as f64;
+                let spread_m = errors
+                    .iter()
+                    .map(|error| (error - mean_m).abs())
+                    .fold(0.0, f64::max);
+                assert!(
+                    spread_m < 5.5 * Beacons::SIGMA_M,
+                    "one place, one delay: {spread_m}"
+                );
+                assert!(mean_m < 2.3, "{mean_m}");
+                all += 1;
+                too_long += u32::from(mean_m > 0.75);
+            }
+        }
+        let share = f64::from(too_long) / f64::from(all);
+        assert!((0.15..0.35).contains(&share), "{share}");
+    }
+
+    #[test]
+    fn the_last_beacon_falls_silent_for_good_and_the_others_do_not() {
+        let model = RobotModel::by_name("sr8730").unwrap();
+        let home = Home::from_floorplan("flat", PLAN, &model).unwrap();
+        let mut beacons = flat_beacons(3).with_failure(30_000);
+        let mut heard = [[0_u32; 4]; 2];
+        for step in 1..=90_000_u64 {
+            let Some((number, _)) = beacons.step(&home, Pose::new(4.5, 2.0, 0.0)) else {
+                continue;
+            };
+            heard[usize::from(step >= 30_000)][usize::from(number)] += 1;
+        }
+        assert!(heard[0].iter().all(|count| *count > 100), "{heard:?}");
+        assert_eq!(heard[1][3], 0, "{heard:?}");
+        assert!(heard[1][..3].iter().all(|count| *count > 200), "{heard:?}");
     }
 }

@@ -1,9 +1,12 @@
 //! Turns a device's reports into the brain's observations.
 
 mod charge;
+mod heard_beacons;
 
 use brain::observation::{BeaconSignal, Contacts, Observation};
 use brain::{Inhibit, LinkFault};
+
+use heard_beacons::HeardBeacons;
 
 use crate::device::{Battery, Description, Report, WrappingTotal};
 
@@ -27,6 +30,7 @@ pub struct Observer {
     heading: WrappingTotal,
     board_heading: Option<BoardHeading>,
     not_calibrated: bool,
+    heard_beacons: HeardBeacons,
     observation: Observation,
 }
 
@@ -42,6 +46,7 @@ impl Observer {
             heading: WrappingTotal::default(),
             board_heading: None,
             not_calibrated: false,
+            heard_beacons: HeardBeacons::default(),
             observation,
         }
     }
@@ -65,7 +70,10 @@ impl Observer {
     }
 
     /// Takes what was measured of a beacon; the next step of the brain sees it. More than a step can be worth are dropped.
-    pub fn take_beacon(&mut self, signal: BeaconSignal) {
+    pub fn take_beacon(&mut self, now_us: u64, signal: BeaconSignal) {
+        if let BeaconSignal::Range(range) = signal {
+            self.heard_beacons.hear(now_us, range.beacon);
+        }
         if self.observation.beacons.len() < BEACONS_MAX {
             self.observation.beacons.push(signal);
         }
@@ -133,6 +141,7 @@ impl Observer {
     /// Stamps the observation with the time and the state of the link. Times always rise strictly.
     pub fn stamp(&mut self, now_us: u64, link: LinkView) {
         self.observation.time_us = now_us.max(self.observation.time_us + 1);
+        self.observation.beacons_in_range = self.heard_beacons.count(now_us);
         self.observation.link_up = link.up;
         for fault in LinkFault::all() {
             self.observation.inhibits.remove(fault.inhibit());

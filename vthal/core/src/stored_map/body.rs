@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use brain::mapping::{self, MeasuredDock, RoomSplit, StoredMapParts};
-use brain::{Cell, Pose2, StoredMap, StoredMapError};
+use brain::{Cell, KnownBeacon, Point2, Pose2, StoredMap, StoredMapError};
 use serde::{Deserialize, Serialize};
 
 use super::annotations::{
@@ -24,6 +24,17 @@ pub(super) struct Body {
 
 /// What a version 11 adds to a body: what earlier runs found in each cell.
 pub(super) type Past = Vec<CellRun>;
+
+/// What a version 12 adds to it: radio beacons.
+pub(super) type Beacons = Vec<StoredBeacon>;
+
+/// A radio beacon.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredBeacon {
+    number: u16,
+    /// x, y, bias and standard deviations of the place and of ranges around a place.
+    lengths: [i64; 5],
+}
 
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredDock {
@@ -50,9 +61,10 @@ pub(super) struct Layers {
 }
 
 impl Body {
-    pub(super) fn of(map: &StoredMap) -> (Self, Past) {
+    pub(super) fn of(map: &StoredMap) -> (Self, Past, Beacons) {
         let parts = map.parts();
         let past = runs(parts.past);
+        let beacons = parts.beacons.iter().map(StoredBeacon::of).collect();
         let body = Self {
             measured_dock: parts.measured_dock.map(|dock| StoredDock {
                 times: dock.times,
@@ -85,10 +97,10 @@ impl Body {
                 .collect(),
             places: Numbered::of(parts.places),
         };
-        (body, past)
+        (body, past, beacons)
     }
 
-    pub(super) fn into_map(self, past: Past) -> Result<StoredMap, StoredMapError> {
+    pub(super) fn into_map(self, past: Past, beacons: Beacons) -> Result<StoredMap, StoredMapError> {
         let layers = self.layers;
         let taken_back = self.room_changes.taken_back.into_iter().map(RoomSplit::try_from);
         StoredMap::from_parts(StoredMapParts {
@@ -113,7 +125,35 @@ impl Body {
             room_changes: self.room_changes.made.parts()?,
             room_settings: by_room(self.room_settings, brain::RoomSettings::try_from)?,
             places: self.places.parts()?,
+            beacons: beacons.into_iter().map(StoredBeacon::into_known).collect(),
         })
+    }
+}
+
+impl StoredBeacon {
+    fn of(known: &KnownBeacon) -> Self {
+        let lengths = [
+            known.place.x_m,
+            known.place.y_m,
+            known.bias_m,
+            known.sigma_m,
+            known.place_sigma_m,
+        ];
+        Self {
+            number: known.number,
+            lengths: lengths.map(millionths),
+        }
+    }
+
+    fn into_known(self) -> KnownBeacon {
+        let [x_m, y_m, bias_m, sigma_m, place_sigma_m] = self.lengths.map(of_millionths);
+        KnownBeacon {
+            number: self.number,
+            place: Point2 { x_m, y_m },
+            bias_m,
+            sigma_m,
+            place_sigma_m,
+        }
     }
 }
 

@@ -6,8 +6,8 @@ use brain::mapping::{
     CellRun, MeasuredDock, Numbered, PartSide, RoomChange, RoomJoin, RoomSplit, StoredMapParts,
 };
 use brain::{
-    Cell, CutLine, KeptPlace, NoGo, Pattern, PlaceShape, Point2, Pose2, RoomName, RoomPower, RoomSettings,
-    StoredMap, Zone,
+    Cell, CutLine, KeptPlace, KnownBeacon, NoGo, Pattern, PlaceShape, Point2, Pose2, RoomName, RoomPower,
+    RoomSettings, StoredMap, Zone,
 };
 
 fn at(x_m: f64, y_m: f64) -> Point2 {
@@ -22,7 +22,7 @@ pub(crate) fn map() -> StoredMap {
     StoredMap::from_parts(parts()).expect("a good map")
 }
 
-/// What the file of version 11 holds.
+/// What the file of version 12 holds.
 pub(crate) fn parts() -> StoredMapParts {
     StoredMapParts {
         measured_dock: Some(MeasuredDock {
@@ -51,12 +51,27 @@ pub(crate) fn parts() -> StoredMapParts {
         undone_splits: vec![split(5)],
         room_settings: room_settings(Pattern::Contour),
         places: places(),
+        beacons: beacons(),
     }
+}
+
+fn beacons() -> Vec<KnownBeacon> {
+    let beacon = |number, x_m, bias_m| KnownBeacon {
+        number,
+        place: at(x_m, -2.125),
+        bias_m,
+        sigma_m: 0.0625,
+        place_sigma_m: 0.3,
+    };
+    vec![beacon(52_301, 4.75, -0.04), beacon(7, -0.5, 0.125)]
 }
 
 /// What the file of a version holds: the less, the older it is.
 pub(crate) fn parts_of_version(version: u8) -> StoredMapParts {
     let mut parts = parts();
+    if version < 12 {
+        parts.beacons = Vec::new();
+    }
     if version < 11 {
         parts.past = Vec::new();
     }

@@ -1,4 +1,4 @@
-//! Maps of versions 1 to 10.
+//! Maps of versions 1 to 11.
 
 use brain::mapping::StoredMapParts;
 use brain::{Pattern, RoomName, StoredMap, StoredMapError};
@@ -9,7 +9,7 @@ use crate::with_checksum;
 
 #[test]
 fn the_files_of_all_earlier_versions_are_read() {
-    let files: [&[u8]; 10] = [
+    let files: [&[u8]; 11] = [
         include_bytes!("version_1.map"),
         include_bytes!("version_2.map"),
         include_bytes!("version_3.map"),
@@ -20,6 +20,7 @@ fn the_files_of_all_earlier_versions_are_read() {
         include_bytes!("version_8.map"),
         include_bytes!("version_9.map"),
         include_bytes!("version_10.map"),
+        include_bytes!("version_11.map"),
     ];
     for (version, bytes) in (1..).zip(files) {
         let map = decode(bytes).expect("a good map");

@@ -1,12 +1,12 @@
 //! Bytes of stored maps: what is written is read again, maps of all versions are read, and nothing that is wrong is taken.
 //!
-//! `version_1.map` to `version_10.map` hold the same map as the writers of these versions kept it.
+//! `version_1.map` to `version_11.map` hold the same map as the writers of these versions kept it.
 
 mod contents;
 mod earlier;
 
 use brain::mapping::{MeasuredDock, Numbered, StoredMapParts};
-use brain::{Pose2, StoredMap, StoredMapError};
+use brain::{KnownBeacon, Pose2, StoredMap, StoredMapError};
 use contents::{map, parts};
 use proptest::prelude::*;
 use vthal_core::stored_map::{DecodeError, decode, encode};
@@ -69,14 +69,14 @@ fn refused(change: impl Fn(&mut Vec<u8>)) -> DecodeError {
     let bytes = encode(&map());
     let mut body = bytes[8..bytes.len() - 4].to_vec();
     change(&mut body);
-    decode(&with_checksum(11, &body)).expect_err("a bad body")
+    decode(&with_checksum(12, &body)).expect_err("a bad body")
 }
 
 #[test]
 fn what_is_wrong_is_named() {
     assert_eq!(decode(b"RVACMOP"), Err(DecodeError::NotAMap));
     assert_eq!(decode(b"RVACMAP"), Err(DecodeError::Cut));
-    assert_eq!(decode(b"RVACMAP\x0C"), Err(DecodeError::Version(12)));
+    assert_eq!(decode(b"RVACMAP\x0D"), Err(DecodeError::Version(13)));
     let cut = |body: &mut Vec<u8>| body.truncate(body.len() - 1);
     assert_eq!(refused(cut), DecodeError::Cut);
     assert_eq!(refused(|body| body.push(0)), DecodeError::Trailing);
@@ -144,12 +144,29 @@ fn parts_that_fit_no_map_are_refused() {
             .extend((0..2_000).map(|room| (room, settings)))
     };
     assert_eq!(wrong(many), StoredMapError::RoomSettings);
+    let twice = |parts: &mut StoredMapParts| parts.beacons.push(parts.beacons[0]);
+    assert_eq!(wrong(twice), StoredMapError::Beacon);
+    let many = |parts: &mut StoredMapParts| {
+        let first = parts.beacons[0];
+        parts.beacons = (0..9).map(|number| KnownBeacon { number, ..first }).collect();
+    };
+    assert_eq!(wrong(many), StoredMapError::Beacon);
+    for sigma_m in [-0.1, f64::NAN, 1e9] {
+        assert_eq!(
+            wrong(|parts| parts.beacons[1].sigma_m = sigma_m),
+            StoredMapError::Beacon
+        );
+    }
+    assert_eq!(
+        wrong(|parts| parts.beacons[1].place.x_m = f64::INFINITY),
+        StoredMapError::Beacon
+    );
 }
 
 proptest! {
     /// Whatever stands between a header and a checksum that fit, nothing panics, and what is taken can be kept again.
     #[test]
-    fn any_body_is_taken_or_refused(version in 1_u8..=11, body in proptest::collection::vec(prop_oneof![0_u8..4, any::<u8>()], 0..200)) {
+    fn any_body_is_taken_or_refused(version in 1_u8..=12, body in proptest::collection::vec(prop_oneof![0_u8..4, any::<u8>()], 0..200)) {
         if let Ok(map) = decode(&with_checksum(version, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
@@ -163,7 +180,7 @@ proptest! {
             let place = place.index(body.len());
             body[place] = byte;
         }
-        if let Ok(map) = decode(&with_checksum(11, &body)) {
+        if let Ok(map) = decode(&with_checksum(12, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
     }

@@ -184,6 +184,17 @@ pub struct Seen {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(with = "Vec<Vec<f64>>")]
     strengths: Vec<(u16, f64)>,
+    /// Number of beacons whose distance was measured lately; absent where there are none, and in recordings of earlier versions.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    beacons_in_range: u8,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde calls it with a reference"
+)]
+fn is_zero(value: &u8) -> bool {
+    *value == 0
 }
 
 #[expect(
@@ -222,6 +233,7 @@ impl From<&Observation> for Seen {
             speed_share: seen.speed_share,
             beacons: seen.beacons.iter().filter_map(range).collect(),
             strengths: seen.beacons.iter().filter_map(strength).collect(),
+            beacons_in_range: seen.beacons_in_range,
         }
     }
 }
@@ -258,6 +270,7 @@ impl Seen {
             link_up: self.link_up,
             speed_share: self.speed_share,
             beacons: self.signals(),
+            beacons_in_range: self.beacons_in_range,
         }
     }
 

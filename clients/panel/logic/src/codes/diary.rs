@@ -19,6 +19,8 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("follow-wall", "Hakkas sõitma piki seina"),
     ("leave-out-gyro", "Jättis güroskoobi asukoha hinnangust kõrvale"),
     ("take-up-gyro", "Kasutab jälle güroskoopi"),
+    ("find-heading", "Sõidab ringi, et oma suund leida"),
+    ("heading-found", "Leidis oma suuna, sõidetud {} m"),
     ("leave-wall", "Lahkus seina äärest"),
     ("withdraw", "Võttis oma kaardi viimase osa tagasi"),
     ("spiral", "Alustas spiraali"),

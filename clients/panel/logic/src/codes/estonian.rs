@@ -157,6 +157,8 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("unswept-floor", "Osa põrandast on veel koristamata.", ""),
     entry("off-the-way", "Robot oli kavandatud teest liiga kaugele sattunud.", ""),
     entry("no-heading", "Robot teab oma suunda ainult rataste järgi, seepärast ei ole tal kaarti, millelt tube leida.", ""),
+    entry("beacons-heard", "Robot kuuleb raadiomajakaid, mis sõidu ajal suuna kätte näitavad.", ""),
+    entry("beacons-silent", "Robot kuuleb liiga väheseid raadiomajakaid.", "Kontrolli majakate ja roboti raadio toidet; suund tuleb ise tagasi, kui vähemalt kolm on jälle kuulda."),
     entry("obstructed", "Liiga palju asju on ees.", "Tee tee vabaks."),
     entry("gyro-scale", "Täispöörded seina ääres näitavad, kui palju güroskoop eksib.", ""),
     entry("gyro-frozen", "Güroskoop kordab ühte väärtust ja jäetakse kõrvale: suunda näitavad ainult rattad ja robot sõidab aeglaselt.", "Kui see kordub, kontrolli güroskoobi pistikut või lase see vahetada."),

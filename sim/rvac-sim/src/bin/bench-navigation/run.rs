@@ -49,6 +49,9 @@ pub(crate) enum Length {
 /// A run may take so much more than its length: for the drive home, or until work begins.
 const SPARE_MS: u64 = 1_200_000;
 
+/// A job in lanes is refused until the radio has heard some beacons, so people wait for so long, milliseconds.
+const RADIO_MS: u64 = 5_000;
+
 /// Where robots run: a home, and what they run with.
 #[derive(Debug)]
 pub(crate) struct Ground<'a> {
@@ -68,6 +71,9 @@ pub(crate) fn rounds(
     let rounds = way.mode.rounds();
     for round in 1..=rounds {
         let mut household = ground.home.household(ground.setup, way);
+        if ground.setup.radio.is_some() {
+            household.pass_ms(RADIO_MS);
+        }
         if let Some(map) = map {
             household = household.with_map(map);
         }
