@@ -111,6 +111,19 @@ impl Brain {
         }
     }
 
+    /// Draws what the robot perceives, keeps the beacons with it, and notes how far its place can be trusted meanwhile.
+    fn draw(&mut self, observation: &Observation, estimate: &PoseEstimate) {
+        if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
+            self.map.insert(estimate, observation);
+        }
+        if let Some(beacons) = self.localization.beacons_to_keep(observation.time_us) {
+            self.map.keep_beacons(beacons);
+        }
+        if let Some(trust) = self.localization.place_trust() {
+            self.map.note_trust(trust, observation.time_us);
+        }
+    }
+
     /// Takes in what the robot perceived and what people asked since the last step, and says what to do. To be called
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
@@ -125,15 +138,7 @@ impl Brain {
         if self.localization.has_just_docked() {
             self.observe_dock(pose);
         }
-        if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
-            self.map.insert(&estimate, observation);
-        }
-        if let Some(beacons) = self.localization.beacons_to_keep(observation.time_us) {
-            self.map.keep_beacons(beacons);
-        }
-        if let Some(trust) = self.localization.place_trust() {
-            self.map.note_trust(trust, observation.time_us);
-        }
+        self.draw(observation, &estimate);
         self.localization
             .check_against_map(observation, advance, &self.config);
         let correction = self

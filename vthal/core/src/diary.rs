@@ -58,14 +58,15 @@ const fn shown(value: f64) -> f64 {
     }
 }
 
+const BY_STATISTICS: &str = "Cleaning started without a map; statistics estimate how much is clean";
+const BY_MAP: &str = "Cleaned what its map shows; how much of the home that is cannot be said";
+
 fn deed(kind: DecisionKind, value: f64) -> String {
     let value = shown(value);
     match kind {
         DecisionKind::BackOff => "Backed off and turned away".to_owned(),
         DecisionKind::Plan => format!("Route planned, {:.0} min", (value / 60.0).max(1.0)),
-        DecisionKind::CleanByStatistics => {
-            "Cleaning started without a map; statistics estimate how much is clean".to_owned()
-        }
+        DecisionKind::CleanByStatistics => BY_STATISTICS.to_owned(),
         DecisionKind::LeaveWay => "Left the planned route".to_owned(),
         DecisionKind::Wait => "Waited".to_owned(),
         DecisionKind::TurnToPart => "Turned to the next part of the job".to_owned(),
@@ -88,9 +89,7 @@ fn deed(kind: DecisionKind, value: f64) -> String {
             "Cleaned {:.0} % of the reachable floor",
             100.0 * value.clamp(0.0, 1.0)
         ),
-        DecisionKind::CoveredByMap => {
-            "Cleaned what its map shows; how much of the home that is cannot be said".to_owned()
-        }
+        DecisionKind::CoveredByMap => BY_MAP.to_owned(),
         DecisionKind::DoubtMap => "Doubts its map".to_owned(),
         DecisionKind::Bounce => "Bounced to get out of this place".to_owned(),
         DecisionKind::Squeeze => "Tried to pass a narrow gap".to_owned(),
@@ -115,6 +114,7 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::EscapeEdgeLeft => "Looked for a way out, with the edge on its left".to_owned(),
         DecisionKind::EscapeEdgeRight => "Looked for a way out, with the edge on its right".to_owned(),
         DecisionKind::EscapeWait => "Waited for somebody to leave or to open a door".to_owned(),
+        DecisionKind::Free if value < 1.5 => "Came free at the first try".to_owned(),
         DecisionKind::Free => format!("Came free after {value:.0} tries"),
         DecisionKind::StateDisconnected => "Lost the connection".to_owned(),
         DecisionKind::StateIdle => "Stood still, without a job".to_owned(),
