@@ -1,5 +1,6 @@
 //! Clients that nobody would write, many at a time and of every kind, while an honest one presses Stop.
 
+use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
@@ -21,6 +22,7 @@ const LULL: Duration = Duration::from_millis(500);
 const OF_A_KIND: u64 = 4;
 /// What is kept on the disk and told to whoever asks.
 const KEPT_TOPICS: &str = r#"{"c":"watch","topics":["schedules","floors"]}"#;
+const KINDS: usize = 6;
 const KEPT: [&str; 4] = [
     r#"{"c":"mixes","id":1}"#,
     r#"{"c":"maps","id":2}"#,
@@ -130,30 +132,29 @@ fn never_ends_a_message(socket: &Path, _: u64, siege: &Siege) {
     }
 }
 
-/// All that is kept, as a client is told it.
-fn kept(socket: &Path) -> Vec<String> {
+/// All that is kept, as a client is told it, by kind. What is read from the disk may come after what was asked later.
+fn kept(socket: &Path) -> BTreeMap<&'static str, String> {
     let mut client = Client::connect(socket).expect("connects");
     client.send(KEPT_TOPICS).expect("sends");
     for question in KEPT {
         client.send(question).expect("sends");
     }
-    let mut told = Vec::new();
+    let mut told = BTreeMap::new();
     let last = client.wait_for(Instant::now() + PATIENCE, |update| {
-        match update {
+        let (kind, says) = match update {
             // On which of them the robot stands it finds out anew.
-            Update::Floors(view) => told.push(format!("{:?}", view.floors)),
-            Update::Schedules(_)
-            | Update::Mixes { .. }
-            | Update::Maps { .. }
-            | Update::Learnt { .. }
-            | Update::Runs { .. } => told.push(format!("{update:?}")),
-            _ => {}
-        }
-        matches!(update, Update::Done { id: 4 })
+            Update::Floors(view) => ("floors", format!("{:?}", view.floors)),
+            Update::Maps { maps, .. } => ("maps", format!("{maps:?}")),
+            Update::Schedules(schedules) => ("schedules", format!("{schedules:?}")),
+            Update::Mixes { mixes } => ("mixes", format!("{mixes:?}")),
+            Update::Learnt { devices, .. } => ("learnt", format!("{devices:?}")),
+            Update::Runs { runs, .. } => ("runs", format!("{runs:?}")),
+            _ => return false,
+        };
+        told.insert(kind, says);
+        told.len() == KINDS
     });
     assert!(last.expect("reads").is_some(), "all was told: {told:#?}");
-    told.sort();
-    told.dedup();
     told
 }
 
