@@ -229,18 +229,16 @@ async fn an_older_map_is_taken_up_and_the_newest_brought_back() {
     browser.until(&walls(0)).await;
 }
 
-/// Waits until a version of the map is the newest, and checks that it has the extent of the one from which it was made.
+/// Waits until a version of the map is the newest, and checks that it has the extent of the one from which it was made. Name and number
+/// stand on one line, with a space that does not break.
 async fn in_use(browser: &Browser, newest: usize, source: usize) {
-    let extent = |number: usize| {
-        format!(
-            "[...document.querySelectorAll('#maps li')].find(row => row.querySelector('.name').textContent === 'Map {number}') \
-             ?.querySelector('.words').textContent.split(', ').slice(1).join()"
-        )
-    };
-    let (made, source) = (extent(newest), extent(source));
     browser
         .until(&format!(
-            "return document.querySelector('#maps .name').textContent === 'Map {newest}' && {made} === {source}"
+            "const name = row => row?.querySelector('.name').textContent.replace('\\u00a0', ' ');
+             const rows = [...document.querySelectorAll('#maps li')];
+             const extent = number => rows.find(row => name(row) === `Map ${{number}}`)
+                 ?.querySelector('.words').textContent.split(', ').slice(1).join();
+             return name(rows[0]) === 'Map {newest}' && extent({newest}) === extent({source})"
         ))
         .await;
 }
