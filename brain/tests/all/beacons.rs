@@ -49,6 +49,14 @@ impl Listener {
         }
     }
 
+    /// One that was asked to clean in lanes, and hears four beacons.
+    fn cleaning() -> Self {
+        let mut listener = Self::new(4);
+        listener.pass_s(0.1);
+        listener.step(&[SYSTEMATIC]);
+        listener
+    }
+
     fn hear(&mut self) {
         self.steps += 1;
         let seen = &mut self.world.observation;
@@ -117,9 +125,7 @@ fn lanes_are_refused_until_three_beacons_are_heard() {
 
 #[test]
 fn it_drives_until_beacons_tell_its_heading_and_then_in_lanes() {
-    let mut listener = Listener::new(4);
-    listener.pass_s(0.1);
-    listener.step(&[SYSTEMATIC]);
+    let mut listener = Listener::cleaning();
     listener.pass_s(400.0);
     let looked = listener
         .decided("find-heading", "beacons-heard")
@@ -137,9 +143,7 @@ fn it_drives_until_beacons_tell_its_heading_and_then_in_lanes() {
 
 #[test]
 fn one_beacon_that_falls_silent_ends_nothing() {
-    let mut listener = Listener::new(4);
-    listener.pass_s(0.1);
-    listener.step(&[SYSTEMATIC]);
+    let mut listener = Listener::cleaning();
     listener.pass_s(150.0);
     assert!(listener.decided("heading-found", "beacons-heard").is_some());
     listener.speaking = 3;
@@ -157,9 +161,7 @@ fn one_beacon_that_falls_silent_ends_nothing() {
 
 #[test]
 fn where_all_beacons_fall_silent_it_goes_on_by_statistics_and_says_why() {
-    let mut listener = Listener::new(4);
-    listener.pass_s(0.1);
-    listener.step(&[SYSTEMATIC]);
+    let mut listener = Listener::cleaning();
     listener.pass_s(10.0);
     assert_eq!(
         listener.decided("heading-found", "beacons-heard"),

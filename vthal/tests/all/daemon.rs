@@ -19,6 +19,8 @@ use rustix::process::{Pid, Signal, kill_process};
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
 use vthal_core::stored_map;
 
+use crate::kept_home::keep_home;
+
 /// Generous: the machine may be busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -571,11 +573,7 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
 #[test]
 fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     let scratch = Scratch::new().expect("creates");
-    let maps = scratch.join("state/maps");
-    fs::create_dir_all(&maps).expect("creates");
-    let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
-    let home = StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY));
-    fs::write(maps.join("000001.map"), stored_map::encode(&home)).expect("writes");
+    let maps = keep_home(&scratch);
     let mut robot = robot(&scratch, 1);
     robot.dock();
     let daemon = start(&scratch);

@@ -5,14 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{Request, RequestBody, Update};
 use rvac_protocol::message::BinaryKinds;
 use serde_json::Value;
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot, next_random, resident_max_mib};
-use vthal_core::stored_map;
 
-use crate::nonsense::{ADDRESS_SPACE_BYTES, PATIENCE, index, press_stop, value};
+use crate::kept_home::keep_home;
+use crate::nonsense::{PATIENCE, index, press_stop, start_in_little_memory, value};
 
 /// Starts with other damage each.
 const STARTS: u64 = 100;
@@ -22,11 +21,6 @@ const WRITTEN_ANYWAY: [&str; 4] = ["vthal.pid", "log", "checkpoint", "recordings
 
 /// A kept file: its path in the folder, and its bytes.
 type Kept = (PathBuf, Vec<u8>);
-
-fn start(scratch: &Scratch) -> Daemon {
-    let vthal = Path::new(env!("CARGO_BIN_EXE_vthal"));
-    Daemon::start_within(ADDRESS_SPACE_BYTES, vthal, scratch, &["--seed", "1"]).expect("gets ready")
-}
 
 /// Ends it as the system does, and expects that it ends well.
 fn end(mut daemon: Daemon) {
@@ -57,16 +51,12 @@ fn ask(client: &mut Client, request: &str) {
 /// A folder in which each kind of file was kept by a daemon.
 fn lived_in() -> Vec<Kept> {
     let scratch = Scratch::new().expect("creates");
-    let maps = scratch.join("state/maps");
-    fs::create_dir_all(&maps).expect("creates");
-    let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
-    let home = StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY));
-    fs::write(maps.join("000001.map"), stored_map::encode(&home)).expect("writes");
+    keep_home(&scratch);
     let mut robot =
         SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1).expect("opens a terminal");
     robot.dock();
     let _robot = LivingRobot::new(robot);
-    let daemon = start(&scratch);
+    let daemon = start_in_little_memory(&scratch);
     let mut client = Client::watching(&scratch.join("vthal.sock"), r#"["log","status"]"#).expect("connects");
     let takes_map =
         |update: &Update| matches!(update, Update::Log(entry) if entry.text.contains("takes up the map"));
@@ -202,7 +192,7 @@ fn whatever_happens_to_kept_files_the_daemon_serves_and_throws_nothing_away() {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         let changed = write_damaged(&files, &scratch.join("state"), &mut state);
         let names: Vec<_> = changed.iter().map(|(name, _)| name).collect();
-        let daemon = start(&scratch);
+        let daemon = start_in_little_memory(&scratch);
         let mut client = Client::connect(&scratch.join("vthal.sock")).expect("connects");
         ask(&mut client, r#"{"c":"maps","id":9}"#);
         ask(&mut client, r#"{"c":"mixes","id":9}"#);

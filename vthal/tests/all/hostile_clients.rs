@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 
 use rvac_api::Update;
 use rvac_protocol::message::BinaryKinds;
-use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot, resident_max_mib};
+use vthal_bench::{Client, LivingRobot, Scratch, SyntheticRobot, resident_max_mib};
 
-use crate::nonsense::{ADDRESS_SPACE_BYTES, PATIENCE, press_stop, request};
+use crate::nonsense::{PATIENCE, press_stop, request, start_in_little_memory};
 
 /// So often Stop is pressed meanwhile, and until so much nonsense was sent.
 const STOPS: u32 = 100;
@@ -189,11 +189,7 @@ fn stop_is_answered_through_a_siege_with_little_memory_and_what_is_kept_is_what_
     let robot =
         SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1).expect("opens a terminal");
     let robot = LivingRobot::new(robot);
-    let start = || {
-        let vthal = Path::new(env!("CARGO_BIN_EXE_vthal"));
-        Daemon::start_within(ADDRESS_SPACE_BYTES, vthal, &scratch, &["--seed", "1"]).expect("gets ready")
-    };
-    let mut daemon = start();
+    let mut daemon = start_in_little_memory(&scratch);
     let socket: PathBuf = scratch.join("vthal.sock");
     let times = besiege(&socket);
     println!(
@@ -209,6 +205,6 @@ fn stop_is_answered_through_a_siege_with_little_memory_and_what_is_kept_is_what_
     // Without a warning: what was told is on the disk.
     daemon.kill().expect("kills");
     drop(robot);
-    let _daemon = start();
+    let _daemon = start_in_little_memory(&scratch);
     assert_eq!(told, kept(&socket));
 }

@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use rvac_api::Update;
 use rvac_protocol::message::BinaryKinds;
 use serde_json::Value;
-use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot, next_random, resident_max_mib};
+use vthal_bench::{Client, LivingRobot, Scratch, SyntheticRobot, next_random, resident_max_mib};
 
-use crate::nonsense::{ADDRESS_SPACE_BYTES, PATIENCE, index, press_stop, value};
+use crate::nonsense::{PATIENCE, index, press_stop, start_in_little_memory, value};
 
 /// Packets that the robot says, and after so many of them each listens once.
 const PACKETS: usize = 30_000;
@@ -95,9 +95,7 @@ fn a_robot_that_raves_ends_nothing_and_serves_again_when_it_is_sound() {
     let scratch = Scratch::new().expect("creates");
     let robot =
         SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1).expect("opens a terminal");
-    let vthal = Path::new(env!("CARGO_BIN_EXE_vthal"));
-    let mut daemon =
-        Daemon::start_within(ADDRESS_SPACE_BYTES, vthal, &scratch, &["--seed", "1"]).expect("gets ready");
+    let mut daemon = start_in_little_memory(&scratch);
     let mut honest = Client::watching(&scratch.join("vthal.sock"), r#"["status"]"#).expect("connects");
     let raving = std::thread::spawn(move || rave(robot));
     let mut slowest = Duration::ZERO;

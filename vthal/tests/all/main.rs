@@ -6,6 +6,7 @@ mod floors;
 mod hostile_clients;
 mod hostile_robot;
 mod kept;
+mod kept_home;
 mod learnt;
 mod links;
 mod nonsense;

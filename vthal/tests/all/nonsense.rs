@@ -1,20 +1,27 @@
-//! Requests that nobody would write, and an honest client beside those who write them.
+//! Requests that nobody would write, a daemon with little memory that gets them, and an honest client beside those who write them.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use rvac_api::{Update, VERBS};
-use vthal_bench::{Client, next_random};
+use vthal_bench::{Client, Daemon, Scratch, next_random};
 
 /// Generous: the machine may be busy with other tests.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 /// All the memory that the daemon can ask for in a siege, what its program takes included. A board of a robot has 512 MiB for everything.
-pub(crate) const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
+const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
 
 const FIELDS: [&str; 24] = [
     "id", "name", "topics", "strategy", "shape", "number", "room", "rooms", "settings", "v", "w", "ttl",
     "floor", "from", "size", "data", "profile", "zone", "quiet", "before", "count", "part", "values",
     "parts",
 ];
+
+/// Starts the daemon in so much memory.
+pub(crate) fn start_in_little_memory(scratch: &Scratch) -> Daemon {
+    let vthal = Path::new(env!("CARGO_BIN_EXE_vthal"));
+    Daemon::start_within(ADDRESS_SPACE_BYTES, vthal, scratch, &["--seed", "1"]).expect("gets ready")
+}
 
 /// A request with a real word and up to four arguments that are seldom right. Never what makes the daemon leave its robot to another program.
 pub(crate) fn request(state: &mut u64) -> String {
