@@ -1,12 +1,11 @@
 //! Records of runs of a whole system on a virtual clock: what people are told afterwards is what happened.
 
 use rvac_api::{RequestBody, RunAsker, RunJob, RunRecord, RunResult, RunStop};
+use rvac_sim::daily::MIDNIGHT_S;
 use rvac_sim::{Host, Household};
 use scenarios::{household, scene, settings};
 use vthal_core::{Checkpoints, CoreConfig, cut_short};
 
-/// Monday 2026-11-23, midnight UTC.
-const MIDNIGHT_S: i64 = 1_795_392_000;
 /// Handshake and description.
 const CONNECT_MS: u64 = 5_000;
 

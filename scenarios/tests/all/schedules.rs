@@ -2,34 +2,22 @@
 
 use brain::StoredMap;
 use robot::RobotSettings;
-use rvac_api::{
-    InQuiet, JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduleTime,
-    ScheduledJob, Weekday,
-};
+use rvac_api::{JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduledJob};
+use rvac_sim::daily::{MIDNIGHT_S, daily_job};
 use rvac_sim::{Host, Household};
 use scenarios::{household, in_phase, scene, settings};
 use vthal_core::{CoreConfig, KeptFloor};
 
-/// Monday 2026-11-23, midnight UTC.
-const MIDNIGHT_S: i64 = 1_795_392_000;
 const DAY_S: i64 = 24 * 3_600;
 /// Handshake and description.
 const CONNECT_MS: u64 = 5_000;
 
 fn entry(name: &str, at: &str) -> ScheduleEntry {
     ScheduleEntry {
-        name: name.to_owned(),
-        enabled: true,
         job: ScheduledJob::Start {
             strategy: Some("bounce".to_owned()),
         },
-        when: ScheduleTime::Weekly {
-            days: Weekday::ALL.to_vec(),
-            at: at.to_owned(),
-        },
-        late_min: 0,
-        in_quiet: InQuiet::Refuse,
-        floor: None,
+        ..daily_job(name, at)
     }
 }
 

@@ -3,10 +3,11 @@
 use rvac_api::{InQuiet, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
 
 /// Monday 2026-11-23, midnight UTC.
-pub(crate) const MIDNIGHT_S: i64 = 1_795_392_000;
+pub const MIDNIGHT_S: i64 = 1_795_392_000;
 
 /// A job of the robot's choice, each day at this time.
-pub(crate) fn daily_job(name: &str, at: &str) -> ScheduleEntry {
+#[must_use]
+pub fn daily_job(name: &str, at: &str) -> ScheduleEntry {
     ScheduleEntry {
         name: name.to_owned(),
         enabled: true,

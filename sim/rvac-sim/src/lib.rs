@@ -11,7 +11,7 @@ pub mod baseline;
 pub mod bench;
 pub mod board_faults;
 mod carpet_quality;
-mod daily;
+pub mod daily;
 pub mod days;
 mod explanation;
 pub mod faults;
