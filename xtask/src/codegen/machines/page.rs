@@ -139,7 +139,7 @@ fn write_pins(text: &mut String, machine: &MachineFacts, background: &Background
             };
             writeln!(
                 text,
-                "\nOf {} port pins {} are known, {} estimated, and {} nobody knows. [The table of all pins]({TO_ROOT}{folder}/README.md#pins) \
+                "\nOf {} port pins {} are known, {} estimated, and {} nobody knows. [The table of all pins]({TO_ROOT}{folder}/README.md) \
                  is made from `{folder}/pinout.toml`, as are the firmware's constants and the emulator's wiring.",
                 pinout.signals.len(),
                 of(Confidence::Known),
