@@ -8,6 +8,7 @@ use rand::{Rng, RngExt as _};
 use rs_matter::BasicCommData;
 use rs_matter::dm::clusters::basic_info::BasicInfoConfig;
 use rs_matter::dm::devices::test::{TEST_PID, TEST_VID};
+use rs_matter::error::Error;
 use rs_matter::pairing::DiscoveryCapabilities;
 use rs_matter::pairing::qr::{CommFlowType, Qr, QrPayload, QrTextType, no_optional_data};
 use rs_matter::sc::pase::{Spake2pVerifierPassword, Spake2pVerifierPasswordRef};
@@ -115,8 +116,8 @@ impl Identity {
         }
     }
 
-    /// The code as text, as a picture of letters, and as the digits that people type.
-    pub(crate) fn code(&self) -> anyhow::Result<String> {
+    /// The text of the QR code.
+    pub(crate) fn code_text(&self) -> anyhow::Result<String> {
         // Without the serial number, which would make it longer.
         let payload = QrPayload::new(
             DiscoveryCapabilities::IP,
@@ -127,11 +128,21 @@ impl Identity {
             "",
             no_optional_data as fn() -> _,
         );
-        let strange = |error| anyhow!("the code cannot be drawn: {error}");
-        let (mut letters, mut scratch, mut modules) =
-            (vec![0; CODE_BYTES], vec![0; CODE_BYTES], vec![0; CODE_BYTES]);
+        let mut letters = vec![0; CODE_BYTES];
         let (text, _) = payload.as_str(&mut letters).map_err(strange)?;
-        let code = Qr::compute(text, &mut scratch, &mut modules).map_err(strange)?;
+        Ok(text.to_owned())
+    }
+
+    /// The digits that people type.
+    pub(crate) fn digits(&self) -> String {
+        self.commissioning().compute_pretty_pairing_code().to_string()
+    }
+
+    /// The code as text, as a picture of letters, and as the digits that people type.
+    pub(crate) fn code(&self) -> anyhow::Result<String> {
+        let text = self.code_text()?;
+        let (mut scratch, mut modules) = (vec![0; CODE_BYTES], vec![0; CODE_BYTES]);
+        let code = Qr::compute(&text, &mut scratch, &mut modules).map_err(strange)?;
         let mut drawing = vec![0; DRAWING_BYTES];
         let (drawn, _) = code
             .as_str(QrTextType::Unicode, QUIET_ZONE, false, &mut drawing)
@@ -140,13 +151,13 @@ impl Identity {
         // Its lines end with a word to terminals that says nothing here.
         writeln!(whole, "{}", drawn.replace("\u{1b}[0m", ""))?;
         writeln!(whole, "code   {text}")?;
-        writeln!(
-            whole,
-            "digits {}",
-            self.commissioning().compute_pretty_pairing_code()
-        )?;
+        writeln!(whole, "digits {}", self.digits())?;
         Ok(whole)
     }
+}
+
+fn strange(error: Error) -> anyhow::Error {
+    anyhow!("the code cannot be drawn: {error}")
 }
 
 #[cfg(test)]

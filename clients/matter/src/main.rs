@@ -3,9 +3,11 @@
 
 mod choices;
 mod clusters;
+mod code_socket;
 mod identity;
 mod network;
 mod node;
+mod progress;
 mod refusal;
 mod relay;
 mod robot;
@@ -40,6 +42,9 @@ struct Arguments {
     /// UDP port to listen on
     #[arg(long, default_value_t = rs_matter::MATTER_PORT)]
     port: u16,
+    /// Unix socket at which the panel's server asks for the code by which a home lets the robot in
+    #[arg(long, value_name = "SOCKET")]
+    code_socket: Option<PathBuf>,
     /// Only prints the code by which a home lets the robot in
     #[arg(long)]
     qr: bool,
@@ -64,6 +69,7 @@ async fn run(arguments: Arguments) -> anyhow::Result<()> {
         socket: arguments.vthal,
         network: arguments.network,
         port: arguments.port,
+        code_socket: arguments.code_socket,
     };
     let choices = Choices::kept(&folder);
     node::run(site, &identity, (folder, choices)).await

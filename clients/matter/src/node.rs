@@ -2,7 +2,8 @@
 
 use std::io::Write as _;
 use std::net::{Ipv6Addr, SocketAddr, UdpSocket};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
 use async_io::Async as AsyncSocket;
@@ -25,9 +26,12 @@ use rs_matter::respond::DefaultResponder;
 use rs_matter::sc::pase::MAX_COMM_WINDOW_TIMEOUT_SECS;
 use rs_matter::transport::exchange::MatterBuffers;
 use rs_matter::{Matter, clusters, devices, root_endpoint};
+use rvac_api::MatterInvitation;
+use tokio::net::UnixListener;
 
 use crate::choices::Choices;
 use crate::clusters::{Areas, Operation, Power, RunMode, Suction};
+use crate::code_socket;
 use crate::identity::Identity;
 use crate::network;
 use crate::relay;
@@ -73,6 +77,8 @@ pub(crate) struct Site {
     pub(crate) socket: PathBuf,
     pub(crate) network: Option<String>,
     pub(crate) port: u16,
+    /// Where the panel's server may ask for the code.
+    pub(crate) code_socket: Option<PathBuf>,
 }
 
 /// Works until the stack gives up.
@@ -101,12 +107,15 @@ pub(crate) async fn run(
     node.startup().await.map_err(failed("what was kept"))?;
 
     let socket = listen(site.port)?;
+    let codes = listen_for_panel(site.code_socket.as_deref())?;
     let responder = DefaultResponder::new(&node);
+    let mut opened_at = None;
     if matter.has_fabrics() {
         writeln!(std::io::stdout(), "ready on port {}", site.port)?;
     } else {
         node.open_basic_comm_window(MAX_COMM_WINDOW_TIMEOUT_SECS)
             .map_err(failed("letting a home in"))?;
+        opened_at = Some(Instant::now());
         writeln!(
             std::io::stdout(),
             "ready to join a home for 15 minutes, on port {}",
@@ -115,13 +124,53 @@ pub(crate) async fn run(
         write!(std::io::stdout(), "{}", identity.code()?)?;
     }
     service::tell_ready();
+    let code = (identity.code_text()?, identity.digits());
+    let invitation = || {
+        let since = opened_at.map(|at| at.elapsed());
+        invitation(&code, since, matter.has_fabrics())
+    };
     tokio::select! {
         ended = matter.run(&crypto, &socket, &socket, &socket) => ended.map_err(failed("the network")),
         ended = responder.run::<4, 4>() => ended.map_err(failed("the answers")),
         ended = node.run() => ended.map_err(failed("the subscriptions")),
         () = network::announce(&matter, &crypto, (site.network.as_deref(), identity.serial())) => Ok(()),
         () = relay::run(&site.socket, (&robot, ends), &node) => Ok(()),
+        () = code_socket::tell(codes, invitation) => Ok(()),
     }
+}
+
+/// What the panel is told: the code as long as a home can join by it, and no longer. The stack closes the window when one has.
+fn invitation(
+    (code, digits): &(String, String),
+    open_since: Option<Duration>,
+    joined: bool,
+) -> MatterInvitation {
+    let window = Duration::from_secs(u64::from(MAX_COMM_WINDOW_TIMEOUT_SECS));
+    let left = open_since
+        .filter(|_| !joined)
+        .map(|since| window.saturating_sub(since));
+    let open_s = left.map_or(0, |left| u32::try_from(left.as_secs()).unwrap_or(u32::MAX));
+    let while_open = |text: &String| (open_s > 0).then(|| text.clone());
+    MatterInvitation {
+        code: while_open(code),
+        digits: while_open(digits),
+        open_s,
+        joined,
+    }
+}
+
+fn listen_for_panel(path: Option<&Path>) -> anyhow::Result<Option<UnixListener>> {
+    let Some(path) = path else { return Ok(None) };
+    let unfit = |error| {
+        ConfigurationError::Unfit(format!(
+            "cannot listen at {}: {error}; choose another --code-socket",
+            path.display()
+        ))
+    };
+    let listener = code_socket::listen(path)
+        .map_err(unfit)
+        .context("the code's socket")?;
+    Ok(Some(listener))
 }
 
 fn failed(what: &str) -> impl FnOnce(Error) -> anyhow::Error {
@@ -203,7 +252,29 @@ fn model<'a>(robot: &'a Robot, crypto: &impl Crypto) -> Result<impl DataModel + 
 
 #[cfg(test)]
 mod tests {
-    use super::{ENDPOINT, NODE};
+    use std::time::Duration;
+
+    use super::{ENDPOINT, NODE, invitation};
+
+    #[test]
+    fn the_panel_is_told_the_code_only_while_a_home_can_join() {
+        let code = ("MT:X".to_owned(), "3497-011-2332".to_owned());
+        let after = |seconds: u64, joined| invitation(&code, Some(Duration::from_secs(seconds)), joined);
+        let open = after(100, false);
+        assert_eq!(
+            (open.code.as_deref(), open.open_s, open.joined),
+            (Some("MT:X"), 800, false)
+        );
+        assert_eq!(open.digits.as_deref(), Some("3497-011-2332"));
+        for told in [
+            after(100, true),
+            after(900, false),
+            after(90_000, false),
+            invitation(&code, None, true),
+        ] {
+            assert_eq!((told.code, told.digits, told.open_s), (None, None, 0));
+        }
+    }
 
     #[test]
     fn the_endpoint_has_what_a_vacuum_cleaner_must_have() {

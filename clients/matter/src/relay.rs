@@ -7,16 +7,23 @@ use bridge::{Change, Daemon, Knowledge, News};
 use rs_matter::dm::clusters::decl::{power_source, rvc_operational_state, rvc_run_mode, service_area};
 use rs_matter::dm::{AttrChangeNotifier, EventEmitter};
 use rs_matter::tlv::Nullable;
-use rvac_api::{Activity, Status, Topic, Trouble, Update};
+use rvac_api::{Activity, JobPart, RequestBody, Status, Topic, Trouble, Update};
 use tokio::sync::oneshot;
 
 use crate::clusters::write_fault;
 use crate::node::ENDPOINT;
+use crate::progress::{Moment, Progress, swept_share};
 use crate::refusal::Refusal;
 use crate::robot::{Ends, Order, Robot};
 use crate::view::View;
 
-const TOPICS: [Topic; 4] = [Topic::Status, Topic::Device, Topic::Home, Topic::Floors];
+const TOPICS: [Topic; 5] = [
+    Topic::Status,
+    Topic::Device,
+    Topic::Home,
+    Topic::Floors,
+    Topic::Map,
+];
 
 type Answer = oneshot::Sender<Result<(), Refusal>>;
 
@@ -29,6 +36,7 @@ pub(crate) async fn run(
     let mut relay = Relay {
         daemon: Daemon::new(socket.to_owned(), "rvac-matter", &TOPICS),
         known: Knowledge::default(),
+        progress: Progress::default(),
         waiting: BTreeMap::new(),
         robot,
         ends,
@@ -45,6 +53,7 @@ pub(crate) async fn run(
 struct Relay<'a, N> {
     daemon: Daemon,
     known: Knowledge,
+    progress: Progress,
     /// Who waits for the daemon's word, by the number of the request.
     waiting: BTreeMap<u32, Answer>,
     robot: &'a Robot,
@@ -84,6 +93,7 @@ impl<N: AttrChangeNotifier + EventEmitter> Relay<'_, N> {
             }
             Update::Failed(failure) => {
                 if let Some(answer) = failure.id.and_then(|id| self.waiting.remove(&id)) {
+                    self.progress.refused();
                     tell(answer, Err(failure.into()));
                 }
             }
@@ -99,6 +109,9 @@ impl<N: AttrChangeNotifier + EventEmitter> Relay<'_, N> {
 
     async fn order(&mut self, order: Order) {
         tracing::info!(asked = ?order.body, "a home asks");
+        if let Some(rooms) = self.rooms_of(&order.body) {
+            self.progress.order(rooms);
+        }
         match self.daemon.request(order.body).await {
             Ok(id) => {
                 // Whoever waited before has given up.
@@ -109,9 +122,46 @@ impl<N: AttrChangeNotifier + EventEmitter> Relay<'_, N> {
         }
     }
 
+    /// The rooms that a job is ordered for, if this begins one: all, when it names none.
+    fn rooms_of(&self, body: &RequestBody) -> Option<Vec<u16>> {
+        let all = || {
+            self.ends
+                .shown
+                .borrow()
+                .areas
+                .iter()
+                .map(|area| area.id)
+                .collect()
+        };
+        match body {
+            RequestBody::Start { .. } => Some(all()),
+            RequestBody::Clean(job) if job.parts.is_empty() => Some(all()),
+            RequestBody::Clean(job) => Some(job.parts.iter().filter_map(room_of).collect()),
+            _ => None,
+        }
+    }
+
+    /// What is known now. While the daemon is away nobody knows how the job goes on.
+    fn view(&mut self) -> View {
+        let mut now = View::of(&self.known);
+        if let Some(status) = &self.known.status {
+            let moment = Moment {
+                cleans: now.cleans,
+                here: now.here,
+                job_s: whole_seconds(status.job_s),
+            };
+            self.progress.take(moment, |room| swept_share(&self.known, room));
+        }
+        if self.known.home.is_some() {
+            self.progress.keep_only(|room| now.has_area(room));
+        }
+        now.progress = self.progress.rows().to_vec();
+        now
+    }
+
     /// Shows what is known now, and tells what of it is new.
     fn show(&mut self, job_s: Option<f64>) {
-        let now = View::of(&self.known);
+        let now = self.view();
         let before = self.ends.shown.borrow().clone();
         if now == before {
             return;
@@ -154,6 +204,13 @@ impl<N: AttrChangeNotifier + EventEmitter> Relay<'_, N> {
             });
             is_told(told.is_ok());
         }
+    }
+}
+
+const fn room_of(part: &JobPart) -> Option<u16> {
+    match part {
+        JobPart::Room(room) => Some(*room),
+        _ => None,
     }
 }
 
@@ -227,6 +284,11 @@ fn changed(before: &View, now: &View) -> Vec<(u32, u32)> {
         before.here != now.here,
         area_id,
         &[area::AttributeId::CurrentArea as u32],
+    );
+    when(
+        before.progress != now.progress,
+        area_id,
+        &[area::AttributeId::Progress as u32],
     );
     changed
 }

@@ -3,6 +3,7 @@
 use bridge::Knowledge;
 use rvac_api::{Activity, BatteryReading, FloorView, RoomView, Status, Trouble, explain};
 
+use crate::progress::RoomProgress;
 use crate::text::{DETAILS_BYTES_MAX, NAME_BYTES_MAX, cut};
 
 /// `OperationalState` of a robot that charges; our states know no difference between it and one that has charged.
@@ -35,6 +36,8 @@ pub(crate) struct View {
     pub(crate) map: Option<Area>,
     /// The room in which it works.
     pub(crate) here: Option<u16>,
+    /// The rooms of the running or last job.
+    pub(crate) progress: Vec<RoomProgress>,
     /// It can be heard when it is looked for.
     pub(crate) beeps: bool,
 }
@@ -109,6 +112,7 @@ impl View {
             map: floor(known),
             here: here.filter(|here| areas.iter().any(|area| area.id == *here)),
             areas,
+            progress: Vec::new(),
             beeps: robot.is_some_and(|robot| robot.parts.iter().any(|part| part == BEEPER)),
         }
     }

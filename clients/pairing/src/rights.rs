@@ -46,7 +46,7 @@ pub struct Route {
 /// Every address below `/api/`, and the files that the server makes itself; one that ends with `/` stands for all that begin so. The page and
 /// its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 19] = [
+pub const ROUTES: [Route; 20] = [
     Route { method: Method::Get,  path: "/robot.crt",          need: Need::Nobody },
     Route { method: Method::Get,  path: "/robot.mobileconfig", need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/openapi.json",   need: Need::Nobody },
@@ -64,6 +64,7 @@ pub const ROUTES: [Route; 19] = [
     Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/role",   need: Need::Role(Role::Admin) },
+    Route { method: Method::Get,  path: "/api/matter",         need: Need::Role(Role::Admin) },
     Route { method: Method::Get,  path: "/api/update",         need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/update",         need: Need::Role(Role::Admin) },
 ];

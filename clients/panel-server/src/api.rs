@@ -20,6 +20,7 @@ use serde::de::DeserializeOwned;
 
 use crate::gate::Gate;
 use crate::guarded::{Known, NotDone, refused, set_cookie};
+use crate::matter;
 use crate::server::Site;
 use crate::software::SoftwareDesk;
 use crate::system;
@@ -109,6 +110,7 @@ pub(crate) fn routes() -> Router<Arc<Site>> {
         .route("/api/openapi.json", get(description))
         .route("/api/session", get(session))
         .route("/api/system", get(system))
+        .route("/api/matter", get(of_matter))
         .route("/api/pairing", get(invitation))
         .route("/api/pairing/begin", post(begin))
         .route("/api/pairing/finish", post(finish))
@@ -154,6 +156,18 @@ async fn session(State(site): State<Arc<Site>>, known: Option<Extension<Known>>)
 async fn system(State(site): State<Arc<Site>>) -> Response<Body> {
     let urls = site.gate().map(|gate| gate.addresses()).unwrap_or_default();
     json(StatusCode::OK, &system::report(Path::new("/"), urls))
+}
+
+/// The code for homes that speak Matter; nothing where `rvac-matter` does not run.
+async fn of_matter(State(site): State<Arc<Site>>) -> Response<Body> {
+    let told = match site.matter() {
+        Some(socket) => matter::invitation(socket).await,
+        None => None,
+    };
+    told.map_or_else(
+        || StatusCode::NO_CONTENT.into_response(),
+        |told| json(StatusCode::OK, &told),
+    )
 }
 
 async fn invitation(State(site): State<Arc<Site>>) -> Answer {

@@ -22,6 +22,7 @@ mod folder;
 mod gate;
 mod guarded;
 mod identity;
+mod matter;
 mod outbox;
 mod page;
 mod pass;

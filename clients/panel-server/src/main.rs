@@ -34,6 +34,9 @@ struct Serve {
     /// Unix socket of the simulator, when the robot is simulated
     #[arg(long, value_name = "SOCKET")]
     simulator: Option<PathBuf>,
+    /// Unix socket at which rvac-matter tells the code by which a home lets the robot in
+    #[arg(long, value_name = "SOCKET")]
+    matter: Option<PathBuf>,
     /// Address to listen on
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
@@ -95,6 +98,7 @@ impl From<Serve> for Settings {
         Self {
             vthal: arguments.vthal,
             simulator: arguments.simulator,
+            matter: arguments.matter,
             address: SocketAddr::new(arguments.bind, arguments.port),
             guard,
             assets: arguments.assets,

@@ -92,12 +92,18 @@ pub(crate) struct Site {
     assets: Assets,
     vthal: PathBuf,
     simulator: Option<PathBuf>,
+    matter: Option<PathBuf>,
     gate: Option<Arc<Gate>>,
 }
 
 impl Site {
     pub(crate) const fn gate(&self) -> Option<&Arc<Gate>> {
         self.gate.as_ref()
+    }
+
+    /// Where `rvac-matter` tells its code.
+    pub(crate) fn matter(&self) -> Option<&std::path::Path> {
+        self.matter.as_deref()
     }
 }
 
@@ -122,6 +128,7 @@ impl Server {
                 assets,
                 vthal: settings.vthal,
                 simulator: settings.simulator,
+                matter: settings.matter,
                 gate: None,
             }),
         };

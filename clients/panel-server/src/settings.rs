@@ -13,6 +13,8 @@ pub struct Settings {
     pub vthal: PathBuf,
     /// Unix socket of the simulator, if the robot is simulated. It need not exist yet.
     pub simulator: Option<PathBuf>,
+    /// Unix socket at which `rvac-matter` tells its code, for administrators. It need not exist yet.
+    pub matter: Option<PathBuf>,
     /// Address to listen on. Port 0 takes any free port.
     pub address: SocketAddr,
     /// With it the server speaks HTTPS to paired devices only, which it must beyond loopback; without it, HTTP to everybody on

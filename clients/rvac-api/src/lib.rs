@@ -18,6 +18,7 @@ mod health;
 mod history;
 mod home;
 mod learnt;
+mod matter;
 mod name;
 mod order;
 mod reasons;
@@ -51,6 +52,7 @@ pub use history::{
 };
 pub use home::{CarpetView, DoorView, HomeView, KeptMap, RoomView, SurenessView, WallView};
 pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
+pub use matter::MatterInvitation;
 pub use name::{NAME_CHARS_MAX, NameProblem, name_problem};
 pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView, RoomBefore,

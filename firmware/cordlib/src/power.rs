@@ -1,7 +1,7 @@
 //! The battery in the main loop: inputs and outputs of the charge controller, and the reports to the host.
 
 use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, LogLevel, PackReading};
-use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
+use rvac_units::{Current, Ratio, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
 use crate::charge::{ChargeContext, ChargeOutput, Docking, MotorActivity};
@@ -123,19 +123,24 @@ impl<P: Parts> Cord<P> {
         })
     }
 
+    /// How full the battery is; `None` while its charge is not known.
+    #[must_use]
+    pub fn battery_charge(&self) -> Option<Ratio> {
+        let known = self.fitted.battery && self.parameters.pack.measured;
+        self.charger.charge_left().filter(|_| known)
+    }
+
     /// The battery for telemetry; `None` while it is not measured or its charge is not known yet, so that no pack is
     /// reported as empty before it was measured, and none as full whose capacity nobody knows.
     pub(crate) fn battery(&self) -> Option<Battery> {
-        if !self.parameters.pack.measured {
-            return None;
-        }
+        let charge = self.battery_charge()?;
         let PackReading { voltage, current } = self.pack()?;
         let tenths = self
             .charger
             .temperature_cc()
             .and_then(|cc| i16::try_from(cc / 10).ok());
         Some(Battery {
-            charge: self.charger.charge_left()?,
+            charge,
             voltage,
             current,
             temperature: tenths.map(Temperature),

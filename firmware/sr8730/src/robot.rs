@@ -1,10 +1,10 @@
 //! The robot: its parameters, its start, its main loop.
 
-use cordlib::board::HardwareFault;
+use cordlib::board::{ChargeDrive, HardwareFault};
 use cordlib::{Cord, Parameters};
 use pic32mx3_hal::flash::DataFlash;
 use pic32mx3_hal::{Peripherals, interrupt, reset};
-use rvac_protocol::message::{Capabilities, Limits, LogLevel};
+use rvac_protocol::message::{Capabilities, Inhibit, Inhibits, Limits, LogLevel};
 use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
 
 use crate::board::checks::StartVerdict;
@@ -12,16 +12,33 @@ use crate::board::resets::{self, Starts};
 use crate::board::{Service, Sr8730, service, tick, wiring};
 use crate::calibration::{Calibration, RECORD_BYTES};
 use crate::generated::calibration::Calibrated;
-use crate::generated::machine;
+use crate::generated::{machine, variant};
 use crate::logic::calibration_record::RecordFault;
+use crate::logic::display::DisplayContent;
 use crate::logic::reset_log::FatalCause;
 
-const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
+/// The display is written that often.
+const DISPLAY_PERIOD_MS: u8 = 100;
+/// Inhibits that stay until somebody clears them.
+const LATCHED: Inhibits = latched();
+
+const fn latched() -> Inhibits {
+    let mut latched = Inhibits::NONE;
+    let mut number = 0;
+    while number < Inhibit::ALL.len() {
+        if Inhibit::ALL[number].is_latched() {
+            latched.insert(Inhibit::ALL[number]);
+        }
+        number += 1;
+    }
+    latched
+}
 
 /// The whole robot.
 #[derive(Debug)]
 pub struct RobotProgram {
     cord: Cord<Sr8730>,
+    until_display_ms: u8,
 }
 
 impl RobotProgram {
@@ -35,6 +52,7 @@ impl RobotProgram {
         let verdict = board.checks.check_at_start();
         let mut robot = Self {
             cord: Cord::new(board, parameters(&calibration)),
+            until_display_ms: 0,
         };
         robot.report_last_run(fatal_cause);
         robot.report_start(calibration.fault(), verdict);
@@ -97,10 +115,32 @@ impl RobotProgram {
             fail_safe_reset(fatal_cause);
         }
         self.cord.step();
+        if variant::DISPLAY.is_some() {
+            self.write_display();
+        }
         match service(self.cord.board_mut()) {
             Service::Well => {}
             Service::DamagedVariable => fail_safe_reset(FatalCause::Variable),
         }
+    }
+
+    #[inline(never)]
+    /// The charge of the battery, with the colon while it charges, unless a fault is latched.
+    fn write_display(&mut self) {
+        if self.until_display_ms > 0 {
+            self.until_display_ms -= 1;
+            return;
+        }
+        self.until_display_ms = DISPLAY_PERIOD_MS - 1;
+        let charging = self.cord.charge_drive() != ChargeDrive::Off;
+        let content = if self.cord.inhibits().intersects(LATCHED) {
+            DisplayContent::Fault
+        } else {
+            self.cord
+                .battery_charge()
+                .map_or(DisplayContent::UnknownCharge, DisplayContent::Charge)
+        };
+        self.cord.board_mut().lights.write(content, charging);
     }
 }
 
@@ -132,7 +172,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
         radius: Length(machine::RADIUS_UM),
         swath: Length(machine::SWATH_UM),
     };
-    let mut parameters = Parameters::for_machine(machine::DEVICE, FIRMWARE, limits);
+    let mut parameters = Parameters::for_machine(machine::DEVICE, variant::FIRMWARE, limits);
     if let Some(known) = wheels {
         parameters.wheel.speed_at_full = Speed(known.free_speed_mm_per_s * 1_000);
         parameters.wheel.dead_band = Throttle::saturating_from_millionths(known.dead_band_permille * 1_000);

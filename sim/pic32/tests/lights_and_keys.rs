@@ -1,6 +1,7 @@
 //! Lights, sounds and keys of the SR8730's own image, as people perceive them: at the pins of the emulated chip.
 //!
-//! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`.
+//! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`, and that of a sister
+//! with a display in `RVAC_FIRMWARE_DISPLAY`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use pic32::board::{Blueprint, CalibrationChoice, EmulatedRobot, EmulatedSettings
 use pic32::image::Image;
 use pic32::pins::{Level, Pin};
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::message::{Beep, BinaryKinds, Command, Event, Led, LedPattern, Report};
+use rvac_protocol::message::{Battery, Beep, BinaryKinds, Command, Event, Led, LedPattern, Report};
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{Frequency, Ratio, Tick};
 
@@ -26,13 +27,17 @@ const WAY_MS: u32 = 20;
 const LIGHTS: u8 = 8;
 const MAIN_LIGHTS: u8 = 5;
 
+/// Which firmware a robot has: the variable that names its image, and the robot by whose name it is built.
+const PLAIN: (&str, &str) = ("RVAC_FIRMWARE", "sr8730");
+const WITH_DISPLAY: (&str, &str) = ("RVAC_FIRMWARE_DISPLAY", "sr8750");
+
 /// The image, if it was built. Where it must be there, it is named.
-fn image() -> Option<Image> {
-    let named = std::env::var_os("RVAC_FIRMWARE").map(PathBuf::from);
-    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/firmware/sr8730.elf");
+fn image((variable, robot): (&str, &str)) -> Option<Image> {
+    let named = std::env::var_os(variable).map(PathBuf::from);
+    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../target/firmware/{robot}.elf"));
     let path = named.clone().unwrap_or(built);
     if named.is_none() && !path.is_file() {
-        println!("skipped: the firmware is not built (cargo xtask firmware sr8730 builds it)");
+        println!("skipped: the firmware is not built (cargo xtask firmware {robot} builds it)");
         return None;
     }
     let bytes = std::fs::read(&path).expect("the firmware can be read");
@@ -48,15 +53,27 @@ struct Desk {
     keys: Vec<(u8, bool)>,
     /// Buttons that are down by the newest state.
     down: u8,
+    /// The charge of the battery by the newest state that knows it, in percent.
+    charge_percent: Option<i32>,
 }
 
 impl Desk {
     fn new() -> Option<Self> {
+        Self::with(PLAIN, &CalibrationChoice::Complete)
+    }
+
+    fn with(firmware: (&str, &str), calibration: &CalibrationChoice) -> Option<Self> {
+        Self::in_room(firmware, calibration, ROOM)
+    }
+
+    /// With a battery that is half empty.
+    fn in_room(firmware: (&str, &str), calibration: &CalibrationChoice, room: &str) -> Option<Self> {
         let blueprint =
-            Blueprint::sr8730(image()?, &CalibrationChoice::Complete).expect("the project's board is sound");
+            Blueprint::sr8730(image(firmware)?, calibration).expect("the project's board is sound");
         let model = RobotModel::by_name("sr8730").expect("it comes with the project");
-        let home = Arc::new(Home::from_floorplan("room", ROOM, &model).expect("a valid home"));
-        let world = World::new(home, &model, &Noise::nominal(), 1, None);
+        let home = Arc::new(Home::from_floorplan("room", room, &model).expect("a valid home"));
+        let mut world = World::new(home, &model, &Noise::nominal(), 1, None);
+        world.set_battery_charge(0.5);
         let settings = EmulatedSettings {
             bounce_us: BOUNCE_US,
             ..EmulatedSettings::default()
@@ -67,6 +84,7 @@ impl Desk {
             packet: PacketBuffer::new(),
             keys: Vec::new(),
             down: 0,
+            charge_percent: None,
         };
         desk.pass_ms(2_000);
         assert!(desk.session.is_open(), "the robot answers");
@@ -88,6 +106,10 @@ impl Desk {
         for event in events {
             match event {
                 HostEvent::Report(Report::State(state)) => self.down = state.buttons,
+                HostEvent::Report(Report::Info(info)) => {
+                    let percent = |battery: Battery| (battery.charge.millionths() + 5_000) / 10_000;
+                    self.charge_percent = info.battery.map(percent).or(self.charge_percent);
+                }
                 HostEvent::Report(Report::Event(told)) => {
                     if let Event::Button { button, pressed } = told.kind {
                         self.keys.push((button, pressed));
@@ -121,6 +143,36 @@ impl Desk {
         self.pass_ms(WAY_MS);
     }
 
+    /// Whether the display's colon is lit.
+    fn colon(&self) -> bool {
+        let colon = self.robot.wiring().display.colon;
+        colon.is_on(self.robot.machine().output(colon.pin))
+    }
+
+    /// What a person reads on the display in the next `ms`: a letter a digit. A segment counts as lit when it is on for at
+    /// least a sixteenth of the time, and is dark when it never is.
+    fn read_display(&mut self, ms: u32) -> String {
+        let before = self.robot.digit_cycles();
+        self.pass_ms(ms);
+        let after = self.robot.digit_cycles();
+        let letter = |(before, after): ([u64; 7], [u64; 7])| {
+            let lit: String = (0..7)
+                .filter(|segment| after[*segment] > before[*segment])
+                .map(|segment| {
+                    let cycles = after[segment] - before[segment];
+                    let bright = cycles * 16 >= u64::from(ms) * CYCLES_PER_MS;
+                    if bright {
+                        char::from(b'a' + segment as u8)
+                    } else {
+                        '?'
+                    }
+                })
+                .collect();
+            reading(&lit)
+        };
+        before.into_iter().zip(after).map(letter).collect()
+    }
+
     /// Share of the time in which each light was lit in the next `ms`, in percent, and whether anything else was.
     fn watch_lights(&mut self, ms: u32) -> ([u64; LIGHTS as usize], bool) {
         let before = self.robot.lit_cycles();
@@ -135,6 +187,27 @@ impl Desk {
         // The third supply is that of the cliff sensors' emitters in a calibrated robot.
         let elsewhere = lit(1, 0) + lit(1, 1);
         (shares, elsewhere > 0)
+    }
+}
+
+/// The letter that these segments show: a is the top one, b to f follow clockwise, g is in the middle.
+fn reading(lit: &str) -> char {
+    match lit {
+        "" => ' ',
+        "g" => '-',
+        "abcdef" => '0',
+        "bc" => '1',
+        "abdeg" => '2',
+        "abcdg" => '3',
+        "bcfg" => '4',
+        "acdfg" => '5',
+        "acdefg" => '6',
+        "abc" => '7',
+        "abcdefg" => '8',
+        "abcdfg" => '9',
+        "adefg" => 'E',
+        "eg" => 'r',
+        _ => '?',
     }
 }
 
@@ -278,4 +351,88 @@ fn each_key_is_pressed_held_and_released_once_however_it_bounces() {
             assert_eq!(desk.down, 0);
         }
     }
+}
+
+#[test]
+fn a_sister_with_a_display_shows_the_charge_that_the_host_is_told() {
+    let Some(mut desk) = Desk::with(WITH_DISPLAY, &CalibrationChoice::Complete) else {
+        return;
+    };
+    desk.pass_ms(3_000);
+    let percent = desk.charge_percent.expect("the battery has been measured");
+    assert_eq!(desk.read_display(400), format!("{percent:>4}"));
+    assert!(!desk.colon());
+}
+
+#[test]
+fn the_colon_of_a_display_is_lit_while_the_battery_charges() {
+    let room = format!("{ROOM}[dock]\nposition = [0.0, 1.5]\nheading-deg = 0.0\n");
+    let Some(mut desk) = Desk::in_room(WITH_DISPLAY, &CalibrationChoice::Complete, &room) else {
+        return;
+    };
+    assert!(!desk.colon(), "the charger waits");
+    let lit = (0..60_000).find(|_| {
+        desk.tick();
+        desk.colon()
+    });
+    assert!(lit.is_some(), "a docked robot with half a charge charges");
+    // A person takes it off the dock.
+    desk.robot.world_mut().lift();
+    desk.pass_ms(2_000);
+    assert!(!desk.colon());
+}
+
+#[test]
+fn a_display_says_that_the_charge_is_not_known_or_that_something_is_wrong() {
+    let Some(mut desk) = Desk::with(WITH_DISPLAY, &CalibrationChoice::Absent) else {
+        return;
+    };
+    assert_eq!(desk.read_display(400), "  --");
+    let Some(mut desk) = Desk::with(WITH_DISPLAY, &CalibrationChoice::Complete) else {
+        return;
+    };
+    // A thermistor that has come off is latched.
+    let (channel, now) = (desk.robot.wiring().thermistor, desk.robot.cycle());
+    desk.robot.hold_analog(channel, 1_023, (now, u64::MAX));
+    desk.pass_ms(20_000);
+    assert_eq!(desk.read_display(400), " Err");
+}
+
+#[test]
+fn lights_beside_a_display_are_lit_alone_and_half_as_brightly() {
+    let Some(mut desk) = Desk::with(WITH_DISPLAY, &CalibrationChoice::Complete) else {
+        return;
+    };
+    for light in 0..LIGHTS {
+        desk.light(light, LedPattern::Off, Ratio::ZERO);
+    }
+    for light in 0..LIGHTS {
+        for (brightness, percent) in [(1_000_000, 25_u64), (500_000, 12), (1, 6)] {
+            desk.light(light, LedPattern::On, ratio(brightness));
+            let (shares, elsewhere) = desk.watch_lights(320);
+            for (number, share) in shares.iter().enumerate() {
+                let wanted = if number == usize::from(light) { percent } else { 0 };
+                assert!(
+                    share.abs_diff(wanted) <= 2,
+                    "light {light} at {brightness}: {shares:?}"
+                );
+            }
+            assert!(!elsewhere, "light {light} is the only one");
+        }
+        let percent = desk.charge_percent.expect("the battery has been measured");
+        assert_eq!(
+            desk.read_display(400),
+            format!("{percent:>4}"),
+            "beside light {light}"
+        );
+        desk.light(light, LedPattern::Off, Ratio::ONE);
+    }
+}
+
+#[test]
+fn a_robot_without_a_display_leaves_its_lines_alone() {
+    let Some(mut desk) = Desk::new() else { return };
+    desk.light(0, LedPattern::On, Ratio::ONE);
+    desk.pass_ms(1_000);
+    assert_eq!(desk.robot.digit_cycles(), [[0; 7]; 4]);
 }

@@ -21,6 +21,15 @@ impl Region {
         self.start..self.start.saturating_add(self.bytes)
     }
 
+    /// The same with more that a firmware of ours may take.
+    pub(crate) fn with_allowance(self, bytes: u32) -> Self {
+        let budget = self.budget_bytes().saturating_add(bytes).min(self.bytes);
+        Self {
+            budget_bytes: Some(budget),
+            ..self
+        }
+    }
+
     /// How much of it a firmware of ours may take, bytes.
     pub(crate) fn budget_bytes(&self) -> u32 {
         self.budget_bytes.unwrap_or(self.bytes)

@@ -16,6 +16,8 @@ use std::path::Path;
 pub(crate) struct Chip {
     /// Name of its file.
     pub(crate) name: String,
+    /// What people call it.
+    pub(crate) title: String,
     /// How its port pins are called.
     pub(crate) port_names: PortNames,
     /// Port pins that carry the crystal.
@@ -28,8 +30,7 @@ pub(crate) struct Chip {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Raw {
     name: String,
-    #[serde(rename = "title")]
-    _title: String,
+    title: String,
     #[serde(rename = "jtag")]
     _jtag: Vec<String>,
     port_names: PortNames,
@@ -64,6 +65,7 @@ impl Chip {
         };
         Ok(Self {
             name: raw.name,
+            title: raw.title,
             port_names: raw.port_names,
             memory: raw.memory,
             crystal: raw.crystal.iter().map(port).collect::<anyhow::Result<_>>()?,

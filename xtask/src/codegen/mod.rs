@@ -3,6 +3,7 @@
 pub(crate) mod board;
 pub(crate) mod drawings;
 mod header;
+pub(crate) mod machines;
 pub(crate) mod robots;
 mod rules;
 mod rust_name;
@@ -36,6 +37,7 @@ pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
         rules::files,
         board::files,
         robots::files,
+        machines::files,
         drawings::files,
         header::files,
     ] {

@@ -52,8 +52,14 @@ pub(crate) fn build(
             "--target-dir",
         ])
         .arg(&place.target);
-    if !options.features.is_empty() {
-        cargo.arg("--features").arg(options.features.join(","));
+    let features: Vec<&str> = board
+        .variant
+        .iter()
+        .chain(&options.features)
+        .map(String::as_str)
+        .collect();
+    if !features.is_empty() {
+        cargo.arg("--features").arg(features.join(","));
     }
     forget_wishes(&mut cargo);
     cargo

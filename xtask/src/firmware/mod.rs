@@ -16,6 +16,7 @@ pub(crate) mod rp2040;
 #[cfg(test)]
 mod sample;
 pub(crate) mod sdcc;
+mod sister;
 mod symbol_name;
 
 use crate::chip::Chip;
@@ -26,15 +27,19 @@ use anyhow::{Context, bail};
 use build::{Options, Place};
 use elf::{Elf, Segment};
 use report::{ChipMemory, Report};
+use sister::Choice;
 use std::path::{Path, PathBuf};
 
 /// The robot whose firmware tests and measurements use.
 pub(crate) const ROBOT: &str = "sr8730";
 
+/// A sister of it whose firmware drives a display.
+pub(crate) const WITH_DISPLAY: &str = "sr8750";
+
 /// Arguments of `cargo xtask firmware`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FirmwareArguments {
-    /// Robot, by the name of its robot.toml; or "hal", the library of the SR8730's chip.
+    /// Robot, by the name of its robot.toml or of a variant with the same board; or "hal", the library of the SR8730's chip.
     robot: String,
     /// Print one JSON object.
     #[arg(long)]
@@ -65,15 +70,33 @@ pub(crate) struct RustBoard {
     board: Board,
     /// The program of its workspace which is the firmware.
     program: String,
+    /// The sister of the robot that it is built for: a feature of the program.
+    variant: Option<String>,
+    /// How much more of the flash that sister's may take.
+    flash_allowance_bytes: u32,
 }
 
 impl RobotFirmware {
     /// That of the robot with this name.
     pub(crate) fn of(robot: &str) -> anyhow::Result<Self> {
-        let board = board(robot)?;
-        Ok(match board.written_in.clone() {
-            WrittenIn::Rust { program } => Self::InRust(RustBoard { board, program }),
-            WrittenIn::C => Self::InC,
+        let Choice {
+            board,
+            variant,
+            flash_allowance_bytes,
+        } = choose(robot)?;
+        Ok(match (board.written_in.clone(), variant) {
+            (WrittenIn::Rust { program }, variant) => Self::InRust(RustBoard {
+                board,
+                program,
+                variant,
+                flash_allowance_bytes,
+            }),
+            (WrittenIn::C, variant) => {
+                if let Some(variant) = variant {
+                    process::say(&format!("{variant} takes the image of {} as it is", board.name));
+                }
+                Self::InC
+            }
         })
     }
 
@@ -167,17 +190,17 @@ pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
     )?)?)
 }
 
-/// The robot of this name, if there is firmware for it.
-fn board(robot: &str) -> anyhow::Result<Board> {
-    let boards = Board::all(&workspace::root())?;
+/// The robot of this name, or the one whose sister it is, if there is firmware for it.
+fn choose(robot: &str) -> anyhow::Result<Choice> {
+    let root = workspace::root();
+    let boards = Board::all(&root)?;
     let ports = rp2040::ports().unwrap_or_default();
     let known: Vec<&str> = boards
         .iter()
         .map(|board| board.name.as_str())
         .chain(ports.iter().map(|port| port.name.as_str()))
         .collect();
-    let found = boards.iter().find(|board| board.name == robot).cloned();
-    found.with_context(|| {
+    sister::choose(&root, &boards, robot)?.with_context(|| {
         format!(
             "there is no firmware for a robot {robot:?}; there is one for: {}",
             known.join(", ")
@@ -195,7 +218,8 @@ fn rust_board(robot: &str) -> anyhow::Result<RustBoard> {
 
 impl RustBoard {
     fn memory(&self) -> anyhow::Result<ChipMemory> {
-        ChipMemory::of(&Chip::load(&workspace::root().join("robots"), &self.board.chip)?)
+        let chip = Chip::load(&workspace::root().join("robots"), &self.board.chip)?;
+        Ok(ChipMemory::of(&chip)?.with_flash_allowance(self.flash_allowance_bytes))
     }
 }
 
@@ -210,11 +234,11 @@ pub(crate) fn build(
     FirmwareFiles::write(&stem(board, options), &linked, record)
 }
 
-/// Name of the files: `sr8730`, or with features `sr8730-link-sampled`.
+/// Name of the files: `sr8730` or that of a sister, or with features `sr8730-link-sampled`.
 fn stem(board: &RustBoard, options: &Options) -> String {
     let mut features = options.features.clone();
     features.sort();
-    std::iter::once(board.board.name.clone())
+    std::iter::once(board.variant.as_ref().unwrap_or(&board.board.name).clone())
         .chain(features)
         .collect::<Vec<_>>()
         .join("-")
@@ -228,6 +252,11 @@ pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
 /// The same for a board on which the link's input must be sampled.
 pub(crate) fn sampled_elf() -> anyhow::Result<PathBuf> {
     elf_with("link-sampled")
+}
+
+/// That of a sister with a display.
+pub(crate) fn display_elf() -> anyhow::Result<PathBuf> {
+    Ok(build(&rust_board(WITH_DISPLAY)?, &Options::default(), None)?.elf)
 }
 
 /// The same with a main loop that does not sleep.

@@ -27,6 +27,14 @@ impl ChipMemory {
             ram: chip.region("ram")?.clone(),
         })
     }
+
+    /// The same where the firmware may take more of the flash.
+    pub(super) fn with_flash_allowance(self, bytes: u32) -> Self {
+        Self {
+            program_flash: self.program_flash.with_allowance(bytes),
+            ..self
+        }
+    }
 }
 
 /// What was measured; the JSON object of `--json`.

@@ -13,7 +13,7 @@ use std::process::Command;
 const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
 
 /// The firmware is built and measured, and what of it runs on this machine is tested. With the campaigns a second build in another folder
-/// must give the same bytes, and the firmware for a board on which the link's input must be sampled keeps to its budgets, too.
+/// must give the same bytes, and the firmware for a board on which the link's input must be sampled and that for a display keep to their budgets, too.
 pub(super) fn of_firmware(extent: Extent) -> Result {
     let firmware = |words: &[&str]| {
         let mut command = cargo(&["xtask", "firmware", firmware::ROBOT]);
@@ -21,7 +21,12 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
         command
     };
     let builds = if extent.has_campaigns() {
-        vec![firmware(&[]), firmware(&["--once", "--features", "link-sampled"])]
+        let with_display = cargo(&["xtask", "firmware", firmware::WITH_DISPLAY, "--once"]);
+        vec![
+            firmware(&[]),
+            firmware(&["--once", "--features", "link-sampled"]),
+            with_display,
+        ]
     } else {
         vec![firmware(&["--once"])]
     };
@@ -85,6 +90,7 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
     let sampled = firmware::sampled_elf()?;
+    let display = firmware::display_elf()?;
     let relax = firmware::sdcc::image()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     system::need("sdcc", &["sdcc"])?;
@@ -102,6 +108,7 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled)
+        .env("RVAC_FIRMWARE_DISPLAY", display)
         .env("RVAC_RELAX", relax.with_file_name(""));
     let mut programs = vec![
         "rvac",

@@ -2,8 +2,9 @@
 
 use rs_matter::dm::clusters::decl::service_area::{
     AreaStructArrayBuilder, AreaStructBuilder, AttributeId, ClusterHandler, CommandId, FULL_CLUSTER, Feature,
-    MapStructArrayBuilder, MapStructBuilder, SelectAreasRequest, SelectAreasResponseBuilder,
-    SelectAreasStatus, SkipAreaRequest, SkipAreaResponseBuilder,
+    MapStructArrayBuilder, MapStructBuilder, OperationalStatusEnum, ProgressStructArrayBuilder,
+    ProgressStructBuilder, SelectAreasRequest, SelectAreasResponseBuilder, SelectAreasStatus,
+    SkipAreaRequest, SkipAreaResponseBuilder,
 };
 use rs_matter::dm::{ArrayAttributeRead, Cluster, Dataver, InvokeContext, ReadContext};
 use rs_matter::error::{Error, ErrorCode};
@@ -12,6 +13,7 @@ use rs_matter::with;
 
 use super::limit;
 use crate::choices::AREAS_MAX;
+use crate::progress::{RoomProgress, RoomState};
 use crate::robot::Robot;
 use crate::text::{AREA_TEXT_BYTES_MAX, cut};
 use crate::view::{Area, View};
@@ -92,10 +94,31 @@ fn write_map<P: TLVBuilderParent>(map: &Area, builder: MapStructBuilder<P>) -> R
     builder.map_id(u32::from(map.id))?.name(map.name.as_str())?.end()
 }
 
+fn write_progress<P: TLVBuilderParent>(
+    row: &RoomProgress,
+    builder: ProgressStructBuilder<P>,
+) -> Result<P, Error> {
+    let status = match row.state {
+        RoomState::Pending => OperationalStatusEnum::Pending,
+        RoomState::Operating => OperationalStatusEnum::Operating,
+        RoomState::Skipped => OperationalStatusEnum::Skipped,
+        RoomState::Completed => OperationalStatusEnum::Completed,
+    };
+    let took_s = row.took_s.map_or(Nullable::none(), Nullable::some);
+    builder
+        .area_id(u32::from(row.room))?
+        .status(status)?
+        .total_operational_time(Some(took_s))?
+        .estimated_time(None)?
+        .end()
+}
+
 impl ClusterHandler for Areas<'_> {
     const CLUSTER: Cluster<'static> = FULL_CLUSTER
-        .with_features(Feature::MAPS.bits())
-        .with_attrs(with!(required; AttributeId::SupportedMaps | AttributeId::CurrentArea))
+        .with_features(Feature::MAPS.bits() | Feature::PROGRESS_REPORTING.bits())
+        .with_attrs(
+            with!(required; AttributeId::SupportedMaps | AttributeId::CurrentArea | AttributeId::Progress),
+        )
         .with_cmds(with!(CommandId::SelectAreas));
 
     fn dataver(&self) -> u32 {
@@ -179,6 +202,27 @@ impl ClusterHandler for Areas<'_> {
     fn current_area(&self, _: impl ReadContext) -> Result<Nullable<u32>, Error> {
         let here = self.robot.view().here;
         Ok(here.map_or(Nullable::none(), |room| Nullable::some(u32::from(room))))
+    }
+
+    fn progress<P: TLVBuilderParent>(
+        &self,
+        _: impl ReadContext,
+        builder: ArrayAttributeRead<ProgressStructArrayBuilder<P>, ProgressStructBuilder<P>>,
+    ) -> Result<P, Error> {
+        let view = self.robot.view();
+        match builder {
+            ArrayAttributeRead::ReadAll(mut all) => {
+                for row in &view.progress {
+                    all = write_progress(row, all.push()?)?;
+                }
+                all.end()
+            }
+            ArrayAttributeRead::ReadOne(index, one) => {
+                let row = view.progress.get(usize::from(index));
+                write_progress(row.ok_or(ErrorCode::ConstraintError)?, one)
+            }
+            ArrayAttributeRead::ReadNone(all) => all.end(),
+        }
     }
 
     fn handle_select_areas<P: TLVBuilderParent>(

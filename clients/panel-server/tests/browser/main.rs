@@ -29,6 +29,7 @@ mod learnt;
 mod lending;
 mod lifetime;
 mod losses;
+mod matter;
 mod mixes;
 mod offline;
 mod owner;

@@ -3,6 +3,7 @@
 
 #[path = "../folder/mod.rs"]
 mod folder;
+mod matter;
 mod openapi;
 mod rig;
 mod schema;

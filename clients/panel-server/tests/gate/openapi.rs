@@ -106,12 +106,17 @@ async fn real_answers_are_as_described() {
         expect_described(&spec, ("post", "/api/clients/role"), &changed);
     }
     for cookie in ["", &viewer, &admin] {
-        expect_described(
-            &spec,
-            ("get", "/api/update"),
-            &rig.get("/api/update", cookie).await,
-        );
+        for path in ["/api/update", "/api/matter"] {
+            expect_described(&spec, ("get", path), &rig.get(path, cookie).await);
+        }
     }
+    let told = crate::matter::tell(&rig, crate::matter::OPEN);
+    expect_described(
+        &spec,
+        ("get", "/api/matter"),
+        &rig.get("/api/matter", &admin).await,
+    );
+    told.abort();
     for announced in [0, 7, 7] {
         let taken = rig.upload(&admin, b"7 bytes", announced).await;
         expect_described(&spec, ("post", "/api/update"), &taken);

@@ -366,6 +366,7 @@ async fn serve(
     let settings = Settings {
         vthal: folder.join("vthal.sock"),
         simulator: None,
+        matter: Some(folder.join("matter.sock")),
         address: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
         guard: Some(Guard {
             state: folder.join("state"),

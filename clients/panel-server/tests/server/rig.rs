@@ -32,6 +32,7 @@ pub(crate) fn settings(folder: &Path) -> Settings {
     Settings {
         vthal: folder.join("vthal.sock"),
         simulator: None,
+        matter: None,
         address: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
         guard: None,
         assets: folder.to_owned(),

@@ -367,6 +367,11 @@ impl Stack {
         self.folder.join("simulator.sock")
     }
 
+    /// Where the server asks for the code for Matter; nobody listens there.
+    pub(crate) fn matter_socket(&self) -> PathBuf {
+        self.folder.join("matter.sock")
+    }
+
     /// Ends the daemon as a power failure would.
     pub(crate) fn kill_vthal(&mut self) {
         self.vthal = None;
@@ -484,6 +489,7 @@ impl Stack {
         command.args(["--port", port, "--assets"]).arg(panel).args(more);
         command.arg("--vthal").arg(daemon);
         command.arg("--simulator").arg(self.simulator_socket());
+        command.arg("--matter").arg(self.matter_socket());
         let (process, line) = Process::start(&mut command);
         self.processes.push(process);
         self.address = line.trim().trim_start_matches("ready ").to_owned();

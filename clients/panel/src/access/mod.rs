@@ -2,6 +2,7 @@
 
 mod allowed;
 mod devices_view;
+mod matter_view;
 mod pair_view;
 mod pairing_steps;
 mod software_view;
@@ -15,6 +16,7 @@ pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLo
 pub(crate) use pair_view::PairView;
 
 use devices_view::DevicesView;
+use matter_view::MatterView;
 use software_view::SoftwareView;
 
 use crate::http::{self, Failed};
@@ -94,6 +96,7 @@ impl Entrance {
 pub(crate) fn AdministratorView(store: Store) -> impl IntoView {
     view! {
         <DevicesView entrance=store.entrance />
+        <MatterView />
         <SoftwareView store />
     }
 }

@@ -18,7 +18,7 @@ use super::encoders::{EncoderLines, WheelEncoders};
 use super::interlock::InterlockedMotor;
 use super::kept::KeptCopies;
 use super::link::{InputParts, SerialLink};
-use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
+use super::panel::{DisplayPins, LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
 use super::receivers::{BeamReceivers, ReceiverPins};
 use super::resets::{Starts, Supervised};
@@ -146,7 +146,7 @@ macro_rules! feelers {
     };
 }
 
-/// Lights and sound.
+/// Lights, display and sound.
 macro_rules! panel {
     ($chip:ident, $p:ident, $unknown_supply:ident) => {{
         let tone_time = Speaker::time_base($chip.timer2);
@@ -170,15 +170,20 @@ macro_rules! panel {
             main: pin!($p.ra6 is LIGHT_SUPPLY_MAIN).into_output(Low),
             battery: pin!($p.rg1 is LIGHT_SUPPLY_BATTERY).into_output(Low),
             unknown: $unknown_supply,
+            display: DisplayPins {
+                commons: [
+                    pin!($p.ra7 is DISPLAY_DIGIT_1).into_output(Low).erase(),
+                    pin!($p.rg14 is DISPLAY_DIGIT_2).into_output(Low).erase(),
+                    pin!($p.rg13 is DISPLAY_DIGIT_3).into_output(Low).erase(),
+                    pin!($p.rg12 is DISPLAY_DIGIT_4).into_output(Low).erase(),
+                ],
+                segments: [
+                    pin!($p.re0 is DISPLAY_SEGMENT_A).into_output(Low).erase(),
+                    pin!($p.re1 is DISPLAY_SEGMENT_B).into_output(Low).erase(),
+                ],
+                colon: pin!($p.rf1 is DISPLAY_COLON).into_output(Low),
+            },
         };
-        // The display of other models, whose remaining segments are presumably the lines of the lights: never on.
-        leave(pin!($p.ra7 is DISPLAY_DIGIT_1).into_output(Low));
-        leave(pin!($p.rg14 is DISPLAY_DIGIT_2).into_output(Low));
-        leave(pin!($p.rg13 is DISPLAY_DIGIT_3).into_output(Low));
-        leave(pin!($p.rg12 is DISPLAY_DIGIT_4).into_output(Low));
-        leave(pin!($p.re0 is DISPLAY_SEGMENT_A).into_output(Low));
-        leave(pin!($p.re1 is DISPLAY_SEGMENT_B).into_output(Low));
-        leave(pin!($p.rf1 is DISPLAY_COLON).into_output(Low));
         (Speaker::take(tone_time, tone, sound), PanelLights::take(lights))
     }};
 }

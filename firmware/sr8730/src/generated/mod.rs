@@ -3,3 +3,4 @@
 pub mod calibration;
 pub mod machine;
 pub mod pins;
+pub mod variant;

@@ -4,6 +4,7 @@ pub mod beam;
 pub mod bridge;
 pub mod calibration_record;
 pub mod clock_check;
+pub mod display;
 pub mod dock_code;
 pub mod edges;
 pub mod envelope;

@@ -9,30 +9,54 @@ use super::wiring::{DigitalLine, Wiring, selected};
 /// Channel of the sound multiplexer behind which the speaker is.
 const SPEAKER: u8 = 7;
 
-/// For how many cycles each light has been lit: by supply (main, battery, unknown) and line (0 to 4). A light is lit
-/// while its supply and its line are on.
+const SUPPLIES: usize = 3;
+const DIGITS: usize = 4;
+const LIGHT_LINES: usize = 5;
+/// Supplies of lights, then commons of digits.
+const ROWS: usize = SUPPLIES + DIGITS;
+/// Lines of lights, then the two that only the display has.
+const COLUMNS: usize = LIGHT_LINES + 2;
+/// Segments of a digit.
+const SEGMENTS: usize = 7;
+
+/// For how many cycles each light has been lit, by supply (main, battery, unknown) and line (0 to 4), and each segment of a
+/// display, if one is fitted there. A light is lit while its supply and its line are on, a segment while its digit and its
+/// line are.
 #[derive(Clone, Debug)]
 pub(super) struct LampTimes {
-    supplies: [DigitalLine; 3],
-    lines: [DigitalLine; 5],
-    on: [bool; 8],
+    rows: [DigitalLine; ROWS],
+    columns: [DigitalLine; COLUMNS],
+    /// Columns of the segments a to g.
+    segments: [usize; SEGMENTS],
+    on: [bool; ROWS + COLUMNS],
     at: u64,
-    lit: [[u64; 5]; 3],
+    lit: [[u64; COLUMNS]; ROWS],
 }
 
 impl LampTimes {
     pub(super) fn new(wiring: &Wiring) -> Self {
+        let [s0, s1, s2] = wiring.light_supplies;
+        let [d0, d1, d2, d3] = wiring.display.digits;
+        let [l0, l1, l2, l3, l4] = wiring.light_lines;
+        let [a, b] = wiring.display.own_segments;
+        let columns = [l0, l1, l2, l3, l4, a, b];
+        let column = |line: DigitalLine| {
+            let same = columns.iter().position(|column| column.pin == line.pin);
+            // The wiring was made of the same lines.
+            same.unwrap_or_default()
+        };
         Self {
-            supplies: wiring.light_supplies,
-            lines: wiring.light_lines,
-            on: [false; 8],
+            rows: [s0, s1, s2, d0, d1, d2, d3],
+            columns,
+            segments: wiring.display.segments.map(column),
+            on: [false; ROWS + COLUMNS],
             at: 0,
-            lit: [[0; 5]; 3],
+            lit: [[0; COLUMNS]; ROWS],
         }
     }
 
     fn pins(&self) -> impl Iterator<Item = DigitalLine> {
-        self.supplies.into_iter().chain(self.lines)
+        self.rows.into_iter().chain(self.columns)
     }
 
     /// All pins whose edges this needs.
@@ -58,17 +82,20 @@ impl LampTimes {
     fn pass(&mut self, cycle: u64) {
         let passed = cycle.saturating_sub(self.at);
         self.at = cycle.max(self.at);
-        for (supply, lit) in self.lit.iter_mut().enumerate() {
-            for (line, lit) in lit.iter_mut().enumerate() {
-                if self.on[supply] && self.on[self.supplies.len() + line] {
-                    *lit += passed;
-                }
+        let (rows, columns) = self.on.split_at(ROWS);
+        for (lit, _) in self.lit.iter_mut().zip(rows).filter(|(_, on)| **on) {
+            for (lit, _) in lit.iter_mut().zip(columns).filter(|(_, on)| **on) {
+                *lit += passed;
             }
         }
     }
 
-    pub(super) const fn lit_cycles(&self) -> [[u64; 5]; 3] {
-        self.lit
+    pub(super) fn lit_cycles(&self) -> [[u64; LIGHT_LINES]; SUPPLIES] {
+        std::array::from_fn(|supply| std::array::from_fn(|line| self.lit[supply][line]))
+    }
+
+    pub(super) fn digit_cycles(&self) -> [[u64; SEGMENTS]; DIGITS] {
+        std::array::from_fn(|digit| self.segments.map(|column| self.lit[SUPPLIES + digit][column]))
     }
 }
 

@@ -7,6 +7,7 @@ mod beams;
 mod calibration;
 mod circuit;
 mod contacts;
+mod display;
 mod dock_code;
 mod encoder;
 mod error;

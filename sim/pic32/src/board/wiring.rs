@@ -1,7 +1,8 @@
 //! Connections of the pins to the robot's parts.
 
 use super::BoardError;
-use super::pinout::{Pinout, Pull, SignalLevel};
+use super::display::DisplayWiring;
+use super::pinout::{Pinout, PinoutSignal, Pull, SignalLevel};
 use crate::pins::{Level, Pin, PinDriver};
 
 /// A digital line: its pin, and the level that means "on".
@@ -14,14 +15,18 @@ pub struct DigitalLine {
 }
 
 impl DigitalLine {
-    fn of(pinout: &Pinout, name: &'static str) -> Result<Self, BoardError> {
-        let signal = pinout.signal(name)?;
+    pub(super) fn of(pinout: &Pinout, name: &'static str) -> Result<Self, BoardError> {
+        Self::of_signal(pinout.signal(name)?).ok_or(BoardError::NoLevel(name))
+    }
+
+    /// That of a signal whose active level is known.
+    pub(super) fn of_signal(signal: &PinoutSignal) -> Option<Self> {
         let active = match signal.active {
             SignalLevel::High => Level::High,
             SignalLevel::Low => Level::Low,
-            SignalLevel::Unknown => return Err(BoardError::NoLevel(name)),
+            SignalLevel::Unknown => return None,
         };
-        Ok(Self {
+        Some(Self {
             pin: signal.pin,
             active,
         })
@@ -107,6 +112,8 @@ pub struct Wiring {
     pub light_supplies: [DigitalLine; 3],
     /// Light lines 0 to 4.
     pub light_lines: [DigitalLine; 5],
+    /// A display, which is fitted on sisters of the robot.
+    pub display: DisplayWiring,
     /// Select lines of the sound multiplexer, bit 0 first.
     pub sound_select: [DigitalLine; 3],
     /// Tone.
@@ -242,6 +249,7 @@ impl Wiring {
                     "light-line-4",
                 ],
             )?,
+            display: DisplayWiring::of(pinout)?,
             sound_select: lines(pinout, ["sound-select-a", "sound-select-b", "sound-select-c"])?,
             sound_tone: line("sound-tone")?,
             sound_enable: line("sound-enable")?,

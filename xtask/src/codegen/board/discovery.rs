@@ -80,7 +80,7 @@ impl Board {
 }
 
 /// Folders of all robots with a pinout, from the root of the repository, sorted.
-pub(super) fn described(root: &Path) -> anyhow::Result<Vec<String>> {
+pub(in crate::codegen) fn described(root: &Path) -> anyhow::Result<Vec<String>> {
     let robots = root.join("robots");
     let mut folders = Vec::new();
     for entry in std::fs::read_dir(&robots).with_context(|| format!("cannot read {}", robots.display()))? {

@@ -7,16 +7,18 @@ mod machine;
 mod pinout;
 mod pins;
 mod table;
+mod variant;
 
-use super::{Generated, formatted};
+use super::{Generated, formatted, machines};
 use anyhow::Context;
 use calibration::Calibration;
+pub(super) use discovery::described;
 pub(crate) use discovery::{Board, WrittenIn};
-use pinout::Pinout;
+pub(super) use pinout::{Confidence, Pinout};
 use std::path::Path;
 
 const MODULES: &str = "//! Facts about the board as constants. Made by cargo xtask codegen. Do not edit.\n\n\
-                       pub mod calibration;\npub mod machine;\npub mod pins;\n";
+                       pub mod calibration;\npub mod machine;\npub mod pins;\npub mod variant;\n";
 
 /// All files of all boards.
 pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
@@ -41,12 +43,16 @@ fn sources(
 ) -> anyhow::Result<Vec<Generated>> {
     let from = |file: &str| format!("{}/{file}", board.facts);
     let firmware = root.join(&board.firmware);
+    let variants = machines::variants(root, &board.facts)?;
+    let buildable = variant::buildable(&variants);
     if board.written_in == WrittenIn::C {
+        variant::check_without_display(&buildable)?;
         return Ok(vec![Generated {
             path: firmware.join("chip/generated/pins.h"),
             text: header::source(pinout, &from("pinout.toml"))?,
         }]);
     }
+    variant::check_features(&firmware.join("Cargo.toml"), &buildable)?;
     let made = [
         ("mod.rs", MODULES.to_owned()),
         ("pins.rs", pins::source(pinout, &from("pinout.toml"))?),
@@ -54,6 +60,10 @@ fn sources(
         (
             "machine.rs",
             machine::source(&root.join(&board.facts), &from("robot.toml"))?,
+        ),
+        (
+            "variant.rs",
+            variant::source(&board.name, &buildable, &from("variants"))?,
         ),
     ];
     made.into_iter()

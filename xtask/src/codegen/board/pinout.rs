@@ -82,7 +82,7 @@ pub(super) enum Pull {
 /// How sure a row is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Confidence {
+pub(in crate::codegen) enum Confidence {
     /// Written down by who followed the trace.
     Known,
     /// Derived.
@@ -95,15 +95,15 @@ pub(super) enum Confidence {
 
 /// One pin of the board.
 #[derive(Debug)]
-pub(super) struct Signal {
+pub(crate) struct Signal {
     /// Our name, in lower case with hyphens.
-    pub(super) name: String,
+    pub(in crate::codegen) name: String,
     /// Name in the original software.
     pub(super) original: Option<String>,
     /// Pin of a port.
-    pub(super) port: PortPin,
+    pub(in crate::codegen) port: PortPin,
     /// Pin of the package.
-    pub(super) pin: u16,
+    pub(in crate::codegen) pin: u16,
     /// What it is used for.
     pub(super) kind: Kind,
     /// Level that means what the name says.
@@ -115,7 +115,7 @@ pub(super) struct Signal {
     /// Level from the first instruction on.
     pub(super) safe: Option<Level>,
     /// How sure the row is.
-    pub(super) confidence: Confidence,
+    pub(in crate::codegen) confidence: Confidence,
     /// Where it comes from.
     pub(super) source: String,
     /// What else matters.
@@ -124,11 +124,11 @@ pub(super) struct Signal {
 
 /// All pins of a board.
 #[derive(Debug)]
-pub(super) struct Pinout {
+pub(crate) struct Pinout {
     /// The chip.
-    pub(super) chip: Chip,
+    pub(in crate::codegen) chip: Chip,
     /// In the order of the file.
-    pub(super) signals: Vec<Signal>,
+    pub(in crate::codegen) signals: Vec<Signal>,
 }
 
 #[derive(Deserialize)]
@@ -167,7 +167,7 @@ struct RawSignal {
 
 impl Pinout {
     /// Reads the pinout of a robot's folder; fails with all faults that it has.
-    pub(super) fn load(robots: &Path, robot: &Path) -> anyhow::Result<Self> {
+    pub(in crate::codegen) fn load(robots: &Path, robot: &Path) -> anyhow::Result<Self> {
         let path = robot.join("pinout.toml");
         let text =
             std::fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;

@@ -37,7 +37,10 @@ pub(crate) struct Mcs51Memory {
 impl Mcs51Memory {
     /// That of the robot's chip.
     fn of_robot() -> anyhow::Result<Self> {
-        let chip = Chip::load(&workspace::root().join("robots"), &super::board(ROBOT)?.chip)?;
+        let chip = Chip::load(
+            &workspace::root().join("robots"),
+            &super::choose(ROBOT)?.board.chip,
+        )?;
         Ok(Self {
             code: chip.region("program-flash")?.clone(),
             xdata: chip.region("external-ram")?.clone(),

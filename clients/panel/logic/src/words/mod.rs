@@ -16,6 +16,7 @@ mod history;
 mod home;
 mod learnt;
 mod map;
+mod matter;
 mod mix;
 mod notice;
 mod schedule;
@@ -39,6 +40,7 @@ pub use history::HistoryWords;
 pub use home::HomeWords;
 pub use learnt::LearntWords;
 pub use map::MapWords;
+pub use matter::MatterWords;
 pub use mix::MixWords;
 pub use notice::NoticeWords;
 pub use schedule::ScheduleWords;
@@ -193,6 +195,7 @@ pub struct Words {
     pub learnt: LearntWords,
     pub log: LogWords,
     pub map: MapWords,
+    pub matter: MatterWords,
     pub mix: MixWords,
     pub notice: NoticeWords,
     pub offer: OfferWords,
@@ -235,6 +238,7 @@ macro_rules! all_screens {
             learnt: LearntWords::$which,
             log: LogWords::$which,
             map: MapWords::$which,
+            matter: MatterWords::$which,
             mix: MixWords::$which,
             notice: NoticeWords::$which,
             offer: OfferWords::$which,

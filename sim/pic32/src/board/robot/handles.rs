@@ -194,8 +194,15 @@ impl EmulatedRobot {
 
     /// For how many cycles each light was lit, by supply (main, battery, unknown) and line (0 to 4).
     #[must_use]
-    pub const fn lit_cycles(&self) -> [[u64; 5]; 3] {
+    pub fn lit_cycles(&self) -> [[u64; 5]; 3] {
         self.lights.lit_cycles()
+    }
+
+    /// For how many cycles each segment of a display was lit, or would have been if one is not fitted: by digit from the left
+    /// and segment (a to g).
+    #[must_use]
+    pub fn digit_cycles(&self) -> [[u64; 7]; 4] {
+        self.lights.digit_cycles()
     }
 
     /// What the speaker sounds, Hz; `None` while it is silent.
