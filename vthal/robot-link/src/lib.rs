@@ -13,6 +13,7 @@ mod i2c;
 mod one_wire;
 mod pace;
 mod spi;
+mod turn;
 
 pub use abilities::{Abilities, Clocking, Duplex, Idle};
 pub use address::{
@@ -24,3 +25,4 @@ pub use i2c::{I2cBus, I2cHost};
 pub use one_wire::OneWire;
 pub use pace::PollPace;
 pub use spi::{SpiBus, SpiHost};
+pub use turn::ClockedEnd;

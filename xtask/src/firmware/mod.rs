@@ -30,6 +30,9 @@ use std::path::{Path, PathBuf};
 
 /// The robot whose firmware tests and measurements use.
 pub(crate) const ROBOT: &str = "sr8730";
+/// Features for links that the host clocks, and the argument that names such a firmware to `bench-links`.
+pub(crate) const CLOCKED_LINKS: [(&str, &str); 2] =
+    [("link-spi", "--firmware-spi"), ("link-i2c", "--firmware-i2c")];
 
 /// Arguments of `cargo xtask firmware`.
 #[derive(Debug, clap::Args)]
@@ -235,7 +238,8 @@ pub(crate) fn free_running_elf() -> anyhow::Result<PathBuf> {
     elf_with("free-running")
 }
 
-fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
+/// The same with this feature.
+pub(crate) fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
     Ok(files_with(feature)?.elf)
 }
 

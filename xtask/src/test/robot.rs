@@ -13,7 +13,7 @@ use std::process::Command;
 const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
 
 /// The firmware is built and measured, and what of it runs on this machine is tested. With the campaigns a second build in another folder
-/// must give the same bytes, and the firmware for a board on which the link's input must be sampled keeps to its budgets, too.
+/// must give the same bytes, and the firmware with each other link keeps to its budgets, too.
 pub(super) fn of_firmware(extent: Extent) -> Result {
     let firmware = |words: &[&str]| {
         let mut command = cargo(&["xtask", "firmware", firmware::ROBOT]);
@@ -21,7 +21,13 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
         command
     };
     let builds = if extent.has_campaigns() {
-        vec![firmware(&[]), firmware(&["--once", "--features", "link-sampled"])]
+        let with = |feature| firmware(&["--once", "--features", feature]);
+        vec![
+            firmware(&[]),
+            with("link-sampled"),
+            with("link-spi"),
+            with("link-i2c"),
+        ]
     } else {
         vec![firmware(&["--once"])]
     };
@@ -121,11 +127,11 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     trials.push(damaged_packets(&relax));
     let trials = checks_side_by_side(trials);
     // In real time, so nothing runs beside it.
-    let links = check(&mut trial(
-        "bench-links",
-        &["--seconds", "4", "--cuts", "2"],
-        &elf,
-    ));
+    let mut links = trial("bench-links", &["--seconds", "4", "--cuts", "2"], &elf);
+    for (feature, argument) in firmware::CLOCKED_LINKS {
+        links.arg(argument).arg(firmware::elf_with(feature)?);
+    }
+    let links = check(&mut links);
     let owner = tests(&mut owner(&elf));
     all([tests(&mut command), owner, pace, trials, links].into_iter())
 }
