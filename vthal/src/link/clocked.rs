@@ -13,7 +13,7 @@ use gpiocdev::line::{EdgeDetection, Value};
 use i2cdev::core::{I2CMessage as _, I2CTransfer as _};
 use i2cdev::linux::{LinuxI2CBus, LinuxI2CError, LinuxI2CMessage};
 use robot_link::{
-    Attention, ClockedEnd, ClockedHost, I2cAddress, I2cBus, I2cHost, SpiAddress, SpiBus, SpiHost,
+    ClockedEnd, ClockedHost, GpioLine, I2cAddress, I2cBus, I2cHost, SpiAddress, SpiBus, SpiHost,
     TransfersOver,
 };
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -24,8 +24,8 @@ use crate::serial::OpenError;
 
 /// Bytes of the daemon that may wait for the bus; the rest stays in the stream.
 const WAITING_MAX: usize = 4096;
-/// What the kernel shows as the user of the line.
-const CONSUMER: &str = "vthal";
+/// What the kernel shows as the user of a line.
+pub(super) const CONSUMER: &str = "vthal";
 
 /// The stream, and where the thread says why it ended.
 type Served = (UnixStream, Arc<OnceLock<String>>);
@@ -98,7 +98,7 @@ pub(super) fn start_i2c(address: &I2cAddress) -> Result<Served, OpenError> {
     start(I2cHost::default(), device, place)
 }
 
-fn start<H, B>(host: H, bus: B, (path, attention): (&Path, Option<&Attention>)) -> Result<Served, OpenError>
+fn start<H, B>(host: H, bus: B, (path, attention): (&Path, Option<&GpioLine>)) -> Result<Served, OpenError>
 where
     H: TransfersOver<B, Error: Display> + Send + 'static,
     B: Send + 'static,
@@ -122,7 +122,7 @@ where
     Ok((UnixStream::from_std(theirs).map_err(refused)?, complaint))
 }
 
-fn request(attention: &Attention) -> Result<Request, OpenError> {
+fn request(attention: &GpioLine) -> Result<Request, OpenError> {
     let mut builder = Request::builder();
     builder
         .on_chip(&attention.chip)

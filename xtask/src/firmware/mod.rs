@@ -228,11 +228,6 @@ pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
     Ok(build(&rust_board(ROBOT)?, &Options::default(), None)?.elf)
 }
 
-/// The same for a board on which the link's input must be sampled.
-pub(crate) fn sampled_elf() -> anyhow::Result<PathBuf> {
-    elf_with("link-sampled")
-}
-
 /// The same with a main loop that does not sleep.
 pub(crate) fn free_running_elf() -> anyhow::Result<PathBuf> {
     elf_with("free-running")

@@ -25,6 +25,7 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
         vec![
             firmware(&[]),
             with("link-sampled"),
+            with("link-rs485"),
             with("link-spi"),
             with("link-i2c"),
         ]
@@ -90,7 +91,8 @@ const BESIDE_OTHERS: [&str; 7] = [
 pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
-    let sampled = firmware::sampled_elf()?;
+    let sampled = firmware::elf_with("link-sampled")?;
+    let rs485 = firmware::elf_with("link-rs485")?;
     let relax = firmware::sdcc::image()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     system::need("sdcc", &["sdcc"])?;
@@ -108,6 +110,7 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled)
+        .env("RVAC_FIRMWARE_RS485", rs485)
         .env("RVAC_RELAX", relax.with_file_name(""));
     let mut programs = vec![
         "rvac",

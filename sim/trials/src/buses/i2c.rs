@@ -152,9 +152,21 @@ impl I2cWires<'_> {
         self.pass(QUARTER_CYCLES);
     }
 
+    /// Puts a bit on the line, damaged or not.
+    fn put_bit(&mut self, level: bool) -> Result<(), I2cFailure> {
+        let level = self.master.bit(level);
+        self.clock_bit(level).map(drop)
+    }
+
+    /// Lets go of the line and takes the bit of the robot, damaged or not: on its own pins it stays what the robot has sent.
+    fn take_bit(&mut self) -> Result<bool, I2cFailure> {
+        let seen = self.clock_bit(true)?;
+        Ok(self.master.bit(seen))
+    }
+
     /// One bit; `true` lets go of the line. Gives what the master sees.
-    fn exchange_bit(&mut self, level: bool) -> Result<bool, I2cFailure> {
-        self.master.data = self.master.bit(level);
+    fn clock_bit(&mut self, level: bool) -> Result<bool, I2cFailure> {
+        self.master.data = level;
         self.pass(QUARTER_CYCLES);
         let pulse = self
             .master
@@ -180,7 +192,7 @@ impl I2cWires<'_> {
             self.pass(QUARTER_CYCLES);
             self.lower_clock();
         }
-        Ok(self.master.bit(seen))
+        Ok(seen)
     }
 
     /// A start, or a start within a transfer.
@@ -210,9 +222,9 @@ impl I2cWires<'_> {
 
     fn put_byte(&mut self, byte: u8) -> Result<(), I2cFailure> {
         for bit in (0..8).rev() {
-            self.exchange_bit(byte >> bit & 1 != 0)?;
+            self.put_bit(byte >> bit & 1 != 0)?;
         }
-        match self.exchange_bit(true)? {
+        match self.take_bit()? {
             false => Ok(()),
             true => Err(I2cFailure::NotAcknowledged),
         }
@@ -221,9 +233,9 @@ impl I2cWires<'_> {
     fn take_byte(&mut self, acknowledges: bool) -> Result<u8, I2cFailure> {
         let mut byte = 0;
         for _ in 0..8 {
-            byte = byte << 1 | u8::from(self.exchange_bit(true)?);
+            byte = byte << 1 | u8::from(self.take_bit()?);
         }
-        self.exchange_bit(!acknowledges)?;
+        self.put_bit(!acknowledges)?;
         Ok(byte)
     }
 
