@@ -70,7 +70,9 @@ impl BusListener {
         self.bits += 1;
         if self.bits <= 8 {
             self.byte = self.byte << 1 | u8::from(data);
-            return None;
+            // Said is what has left, whether the master gets to acknowledge it or not.
+            let is_said = self.bits == 8 && self.kind == ByteOf::Sent && self.register == STREAM;
+            return is_said.then_some(StreamByte::Said(self.byte));
         }
         self.bits = 0;
         self.end(!data)
@@ -94,12 +96,6 @@ impl BusListener {
                 None
             }
             ByteOf::Written if acknowledged && self.register == STREAM => Some(StreamByte::Heard(byte)),
-            ByteOf::Sent if self.register == STREAM => {
-                if !acknowledged {
-                    self.kind = ByteOf::Others;
-                }
-                Some(StreamByte::Said(byte))
-            }
             ByteOf::Address | ByteOf::Register | ByteOf::Written | ByteOf::Sent if !acknowledged => {
                 self.kind = ByteOf::Others;
                 None
