@@ -46,6 +46,7 @@ fn on_panic(_: &PanicInfo<'_>) -> ! {
     robot::fail_safe_reset(FatalCause::Panic)
 }
 
+#[cfg(serial_link)]
 global_asm!(
     ".set push",
     ".set noreorder",
@@ -55,8 +56,9 @@ global_asm!(
     include_str!("link.S"),
     ".set pop",
     ".text",
-    edges = sym sr8730::board::link::by_edges::EDGES,
-    runs = sym sr8730::board::link::RUNS,
+    edges = sym sr8730::board::link::uart::by_edges::EDGES,
+    runs = sym sr8730::board::link::uart::RUNS,
+    rs485 = const cfg!(feature = "link-rs485") as u32,
 );
 
 // Before variables are initialised: the levels of all outputs, then a march test of memory (S21). It runs in registers
@@ -144,6 +146,14 @@ global_asm!(
     options(raw)
 );
 
+/// Pins that are outputs of the board and inputs of a link by SPI, whose master may drive them already.
+const fn link_inputs(port: pins::Port) -> u16 {
+    match port {
+        pins::Port::F if cfg!(feature = "link-spi") => off::mask(pins::GYRO_POWER),
+        _ => 0,
+    }
+}
+
 /// Called first by the code above: sets every output to its safe level, then sets its direction.
 #[unsafe(no_mangle)]
 extern "C" fn sr8730_safe_outputs() {
@@ -151,6 +161,6 @@ extern "C" fn sr8730_safe_outputs() {
         let port = off::port_of(start.port);
         port.write(u16::MAX, start.lat as u16);
         port.release(start.tris as u16);
-        port.drive(!(start.tris as u16));
+        port.drive(!(start.tris as u16) & !link_inputs(start.port));
     }
 }

@@ -11,6 +11,7 @@
     .equ IEC1CLR,       0x1074
     .equ PORTC,         0x6090
     .equ LATB,          0x6060
+    .equ LATGCLR,       0x61A4
     .equ TIMERS,        0xBF80
     .equ T4CONCLR,      0x0C04
     .equ TMR4,          0x0C10
@@ -121,6 +122,11 @@ __enter_TIMER_4:
     lui     $t1, TIMERS
     ori     $t0, $zero, 0x8000
     sw      $t0, T4CONCLR($t1)
+    .if     {rs485}                         # the driver of the pair is off: RG2
+    lui     $k1, INTERRUPTS
+    li      $t0, 1 << 2
+    sw      $t0, LATGCLR($k1)
+    .endif
     b       1b
     lui     $k1, INTERRUPTS
 

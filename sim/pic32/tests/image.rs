@@ -1,7 +1,7 @@
 //! The SR8730's own image in the emulated chip: mistakes of the original project that only the whole program could repeat.
 //!
 //! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`, and the one with
-//! `--features link-sampled` in `RVAC_FIRMWARE_SAMPLED`.
+//! `--features link-sampled` in `RVAC_FIRMWARE_SAMPLED`, that with `--features link-rs485` in `RVAC_FIRMWARE_RS485`.
 
 mod latches;
 
@@ -263,4 +263,52 @@ fn the_sampled_line_loses_nothing_at_full_load() {
         assert_eq!(damaged, 0, "{error_permille} permille: {link:?}");
         assert!(link.accepted > 500, "{error_permille} permille: {link:?}");
     }
+}
+
+/// The driver of an RS-485 pair.
+const DRIVER: &str = "RG2";
+/// Looking so often sees every bit of the line ten times.
+const LOOK_CYCLES: u64 = 30;
+/// Between the driver and the first bit, and between the last one and the driver: 10 us.
+const SWITCH_CYCLES: u64 = 800;
+
+/// It is on before the first low bit and until the last stop bit is over, and off at once after that, so that an answer of the host
+/// meets a free pair.
+#[test]
+fn the_driver_of_a_pair_is_on_for_exactly_as_long_as_something_is_sent() {
+    let Some(image) = image_of("RVAC_FIRMWARE_RS485", "sr8730-link-rs485.elf") else {
+        return;
+    };
+    let mut robot = robot_with(image, &EmulatedSettings::default());
+    assert!(flood(&mut robot, 5_000).is_some(), "a session with reports");
+    let bit = 80_000_000 / 230_400;
+    let (mut heard, mut on_since, mut last_low) = (Vec::new(), None, None);
+    let (begin, mut bursts) = (robot.cycle(), 0);
+    for cycle in (begin..begin + 300 * CYCLES_PER_MS).step_by(LOOK_CYCLES as usize) {
+        robot.advance_to(cycle, &mut heard);
+        let [line, driver] = [TRANSMIT, DRIVER].map(|name| robot.machine().level(pin(name)).is_high());
+        assert!(line || driver, "a low bit without the driver");
+        match (driver, on_since) {
+            (true, None) => (on_since, last_low) = (Some(cycle), None),
+            (false, Some(_)) => {
+                // The last byte may end in ones: nine bits without a low one, the stop bit among them.
+                let low = last_low.expect("the driver was on and nothing was sent");
+                assert!(
+                    cycle - low <= 10 * bit + SWITCH_CYCLES,
+                    "on for {} too long",
+                    cycle - low
+                );
+                (on_since, bursts) = (None, bursts + 1);
+            }
+            (true, Some(since)) if !line && last_low.is_none() => {
+                assert!(cycle - since <= SWITCH_CYCLES, "on {} too early", cycle - since);
+            }
+            _ => {}
+        }
+        if !line {
+            last_low = Some(cycle);
+        }
+    }
+    assert!(bursts >= 5, "{bursts} times");
+    assert!(heard.len() > 200, "{} bytes", heard.len());
 }

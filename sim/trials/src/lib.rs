@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod buses;
 mod campaign;
 mod catalog;
 pub mod charges;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::gpio_line::GpioLine;
 use crate::i2c::I2cHost;
 use crate::spi::SpiHost;
 use crate::{Abilities, Clocking, Duplex, Idle};
@@ -39,7 +40,7 @@ pub struct UartAddress {
 }
 
 /// How a UART is wired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Wires {
     /// One wire a direction.
     Two,
@@ -50,12 +51,16 @@ pub enum Wires {
 }
 
 /// What switches the driver of an RS-485 pair on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// RTS while it is high.
+    /// RTS while it is high, which the kernel switches.
     RtsHigh,
-    /// RTS while it is low.
+    /// RTS while it is low, which the kernel switches.
     RtsLow,
+    /// A GPIO line while it is high, which the daemon switches.
+    LineHigh(GpioLine),
+    /// A GPIO line while it is low, which the daemon switches.
+    LineLow(GpioLine),
 }
 
 /// A host on the network.
@@ -80,15 +85,6 @@ pub struct SecureAddress {
     pub identity: Option<(PathBuf, PathBuf)>,
 }
 
-/// A line of a GPIO chip by which the robot says that it has something to say.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attention {
-    /// The chip, such as `/dev/gpiochip0`.
-    pub chip: PathBuf,
-    /// The line.
-    pub line: u32,
-}
-
 /// An SPI device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpiAddress {
@@ -99,7 +95,7 @@ pub struct SpiAddress {
     /// Mode 0 to 3: bit 1 polarity, bit 0 phase.
     pub mode: u8,
     /// High while the robot has something to say; without it the host asks.
-    pub attention: Option<Attention>,
+    pub attention: Option<GpioLine>,
 }
 
 /// A device on an I2C bus.
@@ -110,7 +106,7 @@ pub struct I2cAddress {
     /// Seven bits.
     pub address: u8,
     /// High while the robot has something to say; without it the host asks.
-    pub attention: Option<Attention>,
+    pub attention: Option<GpioLine>,
 }
 
 /// Why a line names no link, and what to write.
@@ -354,17 +350,24 @@ impl<'a> Keys<'a> {
         })
     }
 
-    fn attention(&self) -> Result<Option<Attention>, AddressError> {
-        self.value("attention", "a chip and a line, such as gpiochip0:24", |value| {
-            let (chip, line) = value.rsplit_once(':')?;
-            let chip = match chip {
-                "" => return None,
-                path if path.starts_with('/') => PathBuf::from(path),
-                name => Path::new("/dev").join(name),
-            };
-            let line = line.parse().ok()?;
-            Some(Attention { chip, line })
-        })
+    fn attention(&self) -> Result<Option<GpioLine>, AddressError> {
+        self.value(
+            "attention",
+            "a chip and a line, such as gpiochip0:24",
+            GpioLine::read,
+        )
+    }
+}
+
+/// What switches the driver of a pair.
+fn direction(text: &str) -> Option<Direction> {
+    match text {
+        "rts" => Some(Direction::RtsHigh),
+        "rts-low" => Some(Direction::RtsLow),
+        line => match line.strip_suffix("-low") {
+            Some(line) => GpioLine::read(line).map(Direction::LineLow),
+            None => GpioLine::read(line).map(Direction::LineHigh),
+        },
     }
 }
 
@@ -385,11 +388,8 @@ fn uart(place: &str, keys: &Keys<'_>) -> Result<UartAddress, AddressError> {
         "two" => Some(false),
         _ => None,
     })?;
-    let direction = keys.value("direction", "rts or rts-low", |text| match text {
-        "rts" => Some(Direction::RtsHigh),
-        "rts-low" => Some(Direction::RtsLow),
-        _ => None,
-    })?;
+    let wanted = "rts, rts-low, or a GPIO line such as gpiochip0:17 or gpiochip0:17-low";
+    let direction = keys.value("direction", wanted, direction)?;
     let wires = match (is_one, direction) {
         (None | Some(false), None) => Wires::Two,
         (Some(true), None) => Wires::One,
@@ -496,7 +496,7 @@ fn i2c(place: &str, keys: &Keys<'_>) -> Result<I2cAddress, AddressError> {
 mod tests {
     use std::path::PathBuf;
 
-    use super::{Attention, Direction, LinkAddress, UartAddress, Wires};
+    use super::{Direction, GpioLine, LinkAddress, UartAddress, Wires};
     use crate::{Clocking, Duplex};
 
     fn read(text: &str) -> LinkAddress {
@@ -517,6 +517,19 @@ mod tests {
                 wires: Wires::Pair(Direction::RtsLow),
             })
         );
+        let driver = GpioLine {
+            chip: "/dev/gpiochip1".into(),
+            line: 17,
+        };
+        for (text, direction) in [
+            ("gpiochip1:17", Direction::LineHigh(driver.clone())),
+            ("/dev/gpiochip1:17-low", Direction::LineLow(driver)),
+        ] {
+            let LinkAddress::Uart(uart) = read(&format!("uart:/dev/ttyS1?direction={text}")) else {
+                panic!("not a UART");
+            };
+            assert_eq!(uart.wires, Wires::Pair(direction));
+        }
         assert_eq!(read("uart:/dev/ttyS1?wires=one").abilities().duplex, Duplex::Half);
         assert_eq!(
             read("usb:/dev/serial/by-id/usb-x").device(),
@@ -534,7 +547,7 @@ mod tests {
             panic!("not SPI");
         };
         assert_eq!((spi.hz, spi.mode), (1_000_000, 0));
-        let attention = Attention {
+        let attention = GpioLine {
             chip: "/dev/gpiochip0".into(),
             line: 24,
         };
@@ -582,6 +595,10 @@ mod tests {
             (
                 "uart:/dev/a?wires=one&direction=rts",
                 "wires=\"one\" cannot be: write either wires=one or direction=rts: a pair has its direction, one wire has none",
+            ),
+            (
+                "uart:/dev/a?direction=17",
+                "direction=\"17\" cannot be: write rts, rts-low, or a GPIO line such as gpiochip0:17 or gpiochip0:17-low",
             ),
             (
                 "tcp:robot",

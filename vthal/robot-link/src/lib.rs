@@ -9,18 +9,22 @@
 mod abilities;
 mod address;
 mod clocked;
+mod gpio_line;
 mod i2c;
 mod one_wire;
 mod pace;
 mod spi;
+mod turn;
 
 pub use abilities::{Abilities, Clocking, Duplex, Idle};
 pub use address::{
-    AddressError, Attention, Direction, I2cAddress, LinkAddress, NetworkAddress, SecureAddress, SpiAddress,
-    UartAddress, Wires,
+    AddressError, Direction, I2cAddress, LinkAddress, NetworkAddress, SecureAddress, SpiAddress, UartAddress,
+    Wires,
 };
 pub use clocked::{ClockedHost, TransfersOver};
+pub use gpio_line::GpioLine;
 pub use i2c::{I2cBus, I2cHost};
 pub use one_wire::OneWire;
 pub use pace::PollPace;
 pub use spi::{SpiBus, SpiHost};
+pub use turn::ClockedEnd;

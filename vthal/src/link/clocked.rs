@@ -13,7 +13,8 @@ use gpiocdev::line::{EdgeDetection, Value};
 use i2cdev::core::{I2CMessage as _, I2CTransfer as _};
 use i2cdev::linux::{LinuxI2CBus, LinuxI2CError, LinuxI2CMessage};
 use robot_link::{
-    Attention, ClockedHost, I2cAddress, I2cBus, I2cHost, PollPace, SpiAddress, SpiBus, SpiHost, TransfersOver,
+    ClockedEnd, ClockedHost, GpioLine, I2cAddress, I2cBus, I2cHost, SpiAddress, SpiBus, SpiHost,
+    TransfersOver,
 };
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use spidev::{SpiModeFlags, Spidev, SpidevOptions, SpidevTransfer};
@@ -23,8 +24,8 @@ use crate::serial::OpenError;
 
 /// Bytes of the daemon that may wait for the bus; the rest stays in the stream.
 const WAITING_MAX: usize = 4096;
-/// What the kernel shows as the user of the line.
-const CONSUMER: &str = "vthal";
+/// What the kernel shows as the user of a line.
+pub(super) const CONSUMER: &str = "vthal";
 
 /// The stream, and where the thread says why it ended.
 type Served = (UnixStream, Arc<OnceLock<String>>);
@@ -97,7 +98,7 @@ pub(super) fn start_i2c(address: &I2cAddress) -> Result<Served, OpenError> {
     start(I2cHost::default(), device, place)
 }
 
-fn start<H, B>(host: H, bus: B, (path, attention): (&Path, Option<&Attention>)) -> Result<Served, OpenError>
+fn start<H, B>(host: H, bus: B, (path, attention): (&Path, Option<&GpioLine>)) -> Result<Served, OpenError>
 where
     H: TransfersOver<B, Error: Display> + Send + 'static,
     B: Send + 'static,
@@ -121,7 +122,7 @@ where
     Ok((UnixStream::from_std(theirs).map_err(refused)?, complaint))
 }
 
-fn request(attention: &Attention) -> Result<Request, OpenError> {
+fn request(attention: &GpioLine) -> Result<Request, OpenError> {
     let mut builder = Request::builder();
     builder
         .on_chip(&attention.chip)
@@ -136,43 +137,42 @@ fn request(attention: &Attention) -> Result<Request, OpenError> {
 
 /// Passes bytes until the daemon closes the stream or the bus fails.
 fn clock<H, B>(
-    (mut host, mut bus): (H, B),
+    (host, mut bus): (H, B),
     stream: &BlockingStream,
     attention: Option<&Request>,
 ) -> Result<(), String>
 where
     H: TransfersOver<B, Error: Display>,
 {
-    let mut pace = PollPace::new(attention.is_some());
+    let mut end = ClockedEnd::new(host, attention.is_some());
     let mut heard = Vec::new();
     loop {
-        if host.waiting() < WAITING_MAX && take_orders(&mut host, stream)? {
+        if end.waiting() < WAITING_MAX && take_orders(&mut end, stream)? {
             return Ok(());
         }
-        let mut any = host
-            .transfer(&mut bus, &mut heard)
-            .map_err(|error| words(&error))?;
-        if let Some(attention) = attention {
-            any |= calls(attention)?;
+        end.turn(&mut bus, &mut heard).map_err(|error| words(&error))?;
+        if let Some(attention) = attention
+            && calls(attention)?
+        {
+            end.called();
         }
-        pace.transferred(any || host.waiting() > 0);
         if !heard.is_empty() {
             give_out(stream, &heard)?;
             heard.clear();
         }
-        if pace.pause_us() > 0 {
-            rest(stream, attention, Duration::from_micros(pace.pause_us()))?;
+        if end.rest_us() > 0 {
+            rest(stream, attention, Duration::from_micros(end.rest_us()))?;
         }
     }
 }
 
 /// Takes what the daemon sends; whether it has closed the stream.
-fn take_orders(host: &mut impl ClockedHost, mut stream: &BlockingStream) -> Result<bool, String> {
+fn take_orders(end: &mut ClockedEnd<impl ClockedHost>, mut stream: &BlockingStream) -> Result<bool, String> {
     let mut bytes = [0; 1024];
     match stream.read(&mut bytes) {
         Ok(0) => Ok(true),
         Ok(count) => {
-            host.send(bytes.get(..count).unwrap_or_default());
+            end.send(bytes.get(..count).unwrap_or_default());
             Ok(false)
         }
         Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(false),

@@ -4,6 +4,7 @@ mod clocked;
 mod moved;
 mod network;
 mod opening;
+mod pair_driver;
 mod shared_wire;
 
 use std::future::poll_fn;

@@ -12,6 +12,7 @@ use serial2_tokio::rs4xx::{Rs485Config, TransceiverMode};
 use tokio::io::{AsyncRead, AsyncWrite};
 use vthal_core::device::Opening;
 
+use super::pair_driver::GpioDriver;
 use super::{clocked, network, shared_wire};
 use crate::serial::{self, DeviceLock, Line, OpenError, SerialSettings};
 
@@ -82,13 +83,16 @@ pub(super) async fn open_to_robot(
             let line = open_serial(&uart.path, baud)?;
             let refused = |error| OpenError::refused(&uart.path, error);
             wake(&line.port, opening).await.map_err(refused)?;
-            match uart.wires {
+            let driver = match &uart.wires {
                 Wires::Two => return Ok(link(Box::new(line.port), Some(line.lock), None)),
-                Wires::One => {}
+                Wires::One => None,
                 Wires::Pair(direction) => drive_pair(&line.port, direction, uart)?,
-            }
+            };
             let wire = OneWire::new(uart.wires == Wires::One, baud);
-            let (stream, complaint) = shared_wire::start(line.port, wire);
+            let (stream, complaint) = match driver {
+                None => shared_wire::start(line.port, wire, None::<(GpioDriver, u32)>),
+                Some(driver) => shared_wire::start(line.port, wire, Some((driver, baud))),
+            };
             Ok(link(Box::new(stream), Some(line.lock), Some(complaint)))
         }
         LinkAddress::Usb(path) => {
@@ -121,16 +125,31 @@ fn open_serial(path: &Path, baud: u32) -> Result<Line, OpenError> {
     })
 }
 
-/// The kernel switches the driver of the pair itself, to the bit; a program would be late.
-fn drive_pair(port: &SerialPort, direction: Direction, uart: &UartAddress) -> Result<(), OpenError> {
-    let mut mode = Rs485Config::new();
-    mode.set_full_duplex(false);
-    mode.set_invert_rts(direction == Direction::RtsLow);
-    port.set_rs4xx_mode(TransceiverMode::Rs485(mode))
-        .map_err(|error| {
-            let text = format!("its driver cannot switch the direction of an RS-485 pair ({error})");
-            OpenError::refused(&uart.path, io::Error::new(error.kind(), text))
-        })
+/// The kernel switches the driver of the pair itself, to the bit, where that of the port can; else a GPIO line that a program
+/// switches has to do, a little late.
+fn drive_pair(
+    port: &SerialPort,
+    direction: &Direction,
+    uart: &UartAddress,
+) -> Result<Option<GpioDriver>, OpenError> {
+    let (line, is_high) = match direction {
+        Direction::RtsHigh | Direction::RtsLow => {
+            let mut mode = Rs485Config::new();
+            mode.set_full_duplex(false);
+            mode.set_invert_rts(*direction == Direction::RtsLow);
+            let done = port.set_rs4xx_mode(TransceiverMode::Rs485(mode));
+            return done.map(|()| None).map_err(|error| {
+                let text = format!(
+                    "its driver cannot switch the direction of an RS-485 pair ({error}): join the pair's driver to a GPIO line \
+                     and write direction=gpiochip0:17"
+                );
+                OpenError::refused(&uart.path, io::Error::new(error.kind(), text))
+            });
+        }
+        Direction::LineHigh(line) => (line, true),
+        Direction::LineLow(line) => (line, false),
+    };
+    GpioDriver::request(line, is_high).map(Some)
 }
 
 async fn wake(port: &SerialPort, opening: Opening) -> io::Result<()> {

@@ -7,19 +7,29 @@ use std::time::Duration;
 use robot_link::OneWire;
 use serial2_tokio::SerialPort;
 use tokio::io::{AsyncReadExt, AsyncWriteExt, DuplexStream};
-use tokio::task::spawn_local;
+use tokio::task::{spawn_blocking, spawn_local};
 use tokio::time::Instant;
+
+use super::pair_driver::PairDriver;
 
 /// Bytes that may wait in each direction.
 const QUEUE: usize = 4096;
 
-/// Begins to serve the device. It ends with the stream, and the stream with it.
-pub(super) fn start(port: SerialPort, wire: OneWire) -> (DuplexStream, Arc<OnceLock<String>>) {
+/// Start, eight, stop.
+const BITS_OF_A_BYTE: u64 = 10;
+
+/// Begins to serve the device. It ends with the stream, and the stream with it. A pair's driver that the kernel does not switch
+/// comes with the rate of the line.
+pub(super) fn start<D: PairDriver>(
+    port: SerialPort,
+    wire: OneWire,
+    driver: Option<(D, u32)>,
+) -> (DuplexStream, Arc<OnceLock<String>>) {
     let (ours, theirs) = tokio::io::duplex(QUEUE);
     let complaint = Arc::new(OnceLock::new());
     let told = Arc::clone(&complaint);
     spawn_local(async move {
-        if let Err(error) = take_turns(&port, ours, wire).await {
+        if let Err(error) = take_turns(&port, ours, (wire, driver)).await {
             // The first reason stays.
             told.set(error.to_string()).ok();
         }
@@ -27,7 +37,30 @@ pub(super) fn start(port: SerialPort, wire: OneWire) -> (DuplexStream, Arc<OnceL
     (theirs, complaint)
 }
 
-async fn take_turns(port: &SerialPort, ours: DuplexStream, mut wire: OneWire) -> io::Result<()> {
+/// Sends with the driver on, and switches it off when the last bit has left, a byte later for what the port takes to begin. A thread
+/// waits for that: it sleeps to a tenth of a millisecond, a timer of the daemon to a whole one, and the robot answers at once.
+async fn send_driven<D: PairDriver>(
+    port: &SerialPort,
+    turn: &[u8],
+    (mut driver, baud): (D, u32),
+) -> io::Result<(D, u32)> {
+    driver.switch(true)?;
+    port.write_all(turn).await?;
+    let bits = BITS_OF_A_BYTE * (turn.len() as u64 + 1);
+    let takes = Duration::from_nanos(bits * 1_000_000_000 / u64::from(baud.max(1)));
+    spawn_blocking(move || {
+        std::thread::sleep(takes);
+        driver.switch(false).map(|()| (driver, baud))
+    })
+    .await
+    .map_err(io::Error::other)?
+}
+
+async fn take_turns<D: PairDriver>(
+    port: &SerialPort,
+    ours: DuplexStream,
+    (mut wire, mut driver): (OneWire, Option<(D, u32)>),
+) -> io::Result<()> {
     let (mut from_daemon, mut to_daemon) = tokio::io::split(ours);
     let begin = Instant::now();
     let now_us = || u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);
@@ -38,7 +71,13 @@ async fn take_turns(port: &SerialPort, ours: DuplexStream, mut wire: OneWire) ->
         if count > 0 {
             let turn: Vec<u8> = waiting.drain(..count).collect();
             wire.sent(now_us(), &turn);
-            port.write_all(&turn).await?;
+            driver = match driver {
+                None => {
+                    port.write_all(&turn).await?;
+                    None
+                }
+                Some(driver) => Some(send_driven(port, &turn, driver).await?),
+            };
         }
         let again = begin + Duration::from_micros(wire.ask_again_us(now_us()));
         tokio::select! {
@@ -58,3 +97,6 @@ async fn take_turns(port: &SerialPort, ours: DuplexStream, mut wire: OneWire) ->
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

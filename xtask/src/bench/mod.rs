@@ -83,7 +83,7 @@ pub(crate) struct BenchArguments {
     /// Of `docking`: docks that are dirty, dead, moved, turned, recessed, without power, or with a shoe before them.
     #[arg(long)]
     worn: bool,
-    /// Of `link`: the kinds of link to measure against the emulated chip, for example `uart,half-duplex,tcp,usb`.
+    /// Of `link`: the kinds of link to measure against the emulated chip, for example `uart,half-duplex,spi,i2c,tcp,usb`.
     #[arg(long)]
     kinds: Option<String>,
     /// Arguments for the measuring program itself, for example `--homes report --seeds 5` of `navigation`.
@@ -135,7 +135,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         command.args(longer(arguments));
     }
     if let Some(kinds) = &arguments.kinds {
-        command.arg("--kinds").arg(kinds);
+        name_links(&mut command, kinds)?;
     }
     if arguments.worn {
         command.arg("--worn");
@@ -154,6 +154,17 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     }
     if arguments.write {
         codegen::run(&codegen::CodegenArguments { check: false })?;
+    }
+    Ok(())
+}
+
+/// The links to measure, with the firmware that each of them needs.
+fn name_links(command: &mut std::process::Command, kinds: &str) -> anyhow::Result<()> {
+    command.arg("--kinds").arg(kinds);
+    for (feature, argument) in firmware::CLOCKED_LINKS {
+        if kinds.split(',').any(|kind| feature.ends_with(kind)) {
+            command.arg(argument).arg(firmware::elf_with(feature)?);
+        }
     }
     Ok(())
 }

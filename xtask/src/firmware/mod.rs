@@ -32,6 +32,9 @@ use std::path::{Path, PathBuf};
 
 /// The robot whose firmware tests and measurements use.
 pub(crate) const ROBOT: &str = "sr8730";
+/// Features for links that the host clocks, and the argument that names such a firmware to `bench-links`.
+pub(crate) const CLOCKED_LINKS: [(&str, &str); 2] =
+    [("link-spi", "--firmware-spi"), ("link-i2c", "--firmware-i2c")];
 
 /// A sister of it whose firmware drives a display.
 pub(crate) const WITH_DISPLAY: &str = "sr8750";
@@ -249,11 +252,6 @@ pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
     Ok(build(&rust_board(ROBOT)?, &Options::default(), None)?.elf)
 }
 
-/// The same for a board on which the link's input must be sampled.
-pub(crate) fn sampled_elf() -> anyhow::Result<PathBuf> {
-    elf_with("link-sampled")
-}
-
 /// That of a sister with a display.
 pub(crate) fn display_elf() -> anyhow::Result<PathBuf> {
     Ok(build(&rust_board(WITH_DISPLAY)?, &Options::default(), None)?.elf)
@@ -264,7 +262,8 @@ pub(crate) fn free_running_elf() -> anyhow::Result<PathBuf> {
     elf_with("free-running")
 }
 
-fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
+/// The same with this feature.
+pub(crate) fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
     Ok(files_with(feature)?.elf)
 }
 

@@ -13,7 +13,7 @@ use std::process::Command;
 const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
 
 /// The firmware is built and measured, and what of it runs on this machine is tested. With the campaigns a second build in another folder
-/// must give the same bytes, and the firmware for a board on which the link's input must be sampled and that for a display keep to their budgets, too.
+/// must give the same bytes, and the firmware with each other link and that for a display keep to their budgets, too.
 pub(super) fn of_firmware(extent: Extent) -> Result {
     let firmware = |words: &[&str]| {
         let mut command = cargo(&["xtask", "firmware", firmware::ROBOT]);
@@ -21,10 +21,14 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
         command
     };
     let builds = if extent.has_campaigns() {
+        let with = |feature| firmware(&["--once", "--features", feature]);
         let with_display = cargo(&["xtask", "firmware", firmware::WITH_DISPLAY, "--once"]);
         vec![
             firmware(&[]),
-            firmware(&["--once", "--features", "link-sampled"]),
+            with("link-sampled"),
+            with("link-rs485"),
+            with("link-spi"),
+            with("link-i2c"),
             with_display,
         ]
     } else {
@@ -89,8 +93,9 @@ const BESIDE_OTHERS: [&str; 7] = [
 pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
-    let sampled = firmware::sampled_elf()?;
+    let sampled = firmware::elf_with("link-sampled")?;
     let display = firmware::display_elf()?;
+    let rs485 = firmware::elf_with("link-rs485")?;
     let relax = firmware::sdcc::image()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     system::need("sdcc", &["sdcc"])?;
@@ -109,6 +114,7 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled)
         .env("RVAC_FIRMWARE_DISPLAY", display)
+        .env("RVAC_FIRMWARE_RS485", rs485)
         .env("RVAC_RELAX", relax.with_file_name(""));
     let mut programs = vec![
         "rvac",
@@ -128,11 +134,11 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     trials.push(damaged_packets(&relax));
     let trials = checks_side_by_side(trials);
     // In real time, so nothing runs beside it.
-    let links = check(&mut trial(
-        "bench-links",
-        &["--seconds", "4", "--cuts", "2"],
-        &elf,
-    ));
+    let mut links = trial("bench-links", &["--seconds", "4", "--cuts", "2"], &elf);
+    for (feature, argument) in firmware::CLOCKED_LINKS {
+        links.arg(argument).arg(firmware::elf_with(feature)?);
+    }
+    let links = check(&mut links);
     let owner = tests(&mut owner(&elf));
     all([tests(&mut command), owner, pace, trials, links].into_iter())
 }

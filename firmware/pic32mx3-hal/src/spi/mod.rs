@@ -233,6 +233,29 @@ impl<const NUMBER: u8> Spi<NUMBER> {
     }
 }
 
+impl<const NUMBER: u8> Spi<NUMBER> {
+    /// Starts it as slave that is always selected, with SS left to other uses. The chip offers that for data that changes on the
+    /// clock's leading edge only: modes 1 and 3, which differ in the clock's level at rest. [`SpiSlave::restart`] brings bits and
+    /// words back into step.
+    pub fn into_slave_without_select<W: Word, C, O, I>(
+        self,
+        pins: (C, O, I),
+        polarity: Polarity,
+    ) -> SpiSlave<NUMBER, W, (C, O, I)>
+    where
+        C: ClockInput<NUMBER>,
+        O: DataOutput<NUMBER>,
+        I: DataInput<NUMBER>,
+    {
+        let mode = Mode {
+            polarity,
+            phase: Phase::CaptureOnSecondTransition,
+        };
+        start::<NUMBER>(0, mode_bits(mode) | W::WIDTH);
+        SpiSlave::new(self, pins)
+    }
+}
+
 /// From off to on with these settings: the order of section 1.3.
 fn start<const NUMBER: u8>(divider: u32, control: u32) {
     stop::<NUMBER>();

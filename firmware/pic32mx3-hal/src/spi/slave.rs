@@ -4,7 +4,7 @@ use super::{BUSY, ON, ROOM, Spi, SpiError, Word, stop, try_receive, try_send};
 use crate::register::map::{spi_control, spi_status};
 use core::marker::PhantomData;
 
-/// A slave that the pin SS selects. Give it the first word before the master begins, and each further one while the word
+/// A slave that the pin SS selects, or that always is. Give it the first word before the master begins, and each further one while the word
 /// before it moves.
 #[derive(Debug)]
 pub struct SpiSlave<const NUMBER: u8, W, P> {
@@ -105,6 +105,9 @@ mod tests {
         let slave = spi.into_slave::<u8, _, _, _, _>((clock, output, input, select), MODE_1);
         assert_eq!(spi_control(2).read(), 1 << 15 | 1 << 7);
         let (spi, (clock, output, input, select)) = slave.release();
+        let always = spi.into_slave_without_select::<u8, _, _, _>((clock, output, input), Polarity::IdleHigh);
+        assert_eq!(spi_control(2).read(), 1 << 15 | 1 << 6, "neither SSEN nor CKE");
+        let (spi, (clock, output, input)) = always.release();
 
         let pulse = FramePulse {
             level: PulseLevel::High,

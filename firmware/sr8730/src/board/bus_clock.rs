@@ -36,11 +36,11 @@ pub struct BusClock;
 #[cfg(feature = "link-sampled")]
 impl BusClock {
     /// Half counts of the core timer in one of this clock.
-    pub const HALVES_PER_COUNT: u32 = super::link::by_samples::CORE_HALVES_PER_SAMPLE;
+    pub const HALVES_PER_COUNT: u32 = super::link::uart::by_samples::CORE_HALVES_PER_SAMPLE;
 
     /// The count, modulo 2^16.
     #[must_use]
     pub fn count(&self) -> u16 {
-        super::link::by_samples::samples()
+        super::link::uart::by_samples::samples()
     }
 }

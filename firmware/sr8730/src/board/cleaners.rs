@@ -7,7 +7,7 @@ use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
 use super::interlock::InterlockedMotor;
-use super::link::by_edges::brush_pulses;
+use super::link::brush::brush_pulses;
 use super::off;
 use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;

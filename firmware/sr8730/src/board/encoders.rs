@@ -12,7 +12,7 @@ use pic32mx3_hal::interrupt;
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
 use rvac_protocol::message::EncoderProbe;
 
-use super::link::by_edges::brush_pulses;
+use super::link::brush::brush_pulses;
 use super::off::{mask, port};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;

@@ -47,7 +47,7 @@ pub struct Sr8730;
 
 impl Parts for Sr8730 {
     type Clock = tick::TickClock;
-    type Link = link::SerialLink;
+    type Link = link::BoardLink;
     type Wheels = wheels::Wheels;
     type Reset = resets::Starts;
     type Watchdog = resets::Supervised;

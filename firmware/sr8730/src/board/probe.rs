@@ -4,7 +4,7 @@ use cordlib::board::PinProbe;
 use pic32mx3_hal::gpio::Port;
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
-use super::link::by_edges::port_c;
+use super::link::port_c;
 use super::serial::SerialPorts;
 use super::{contacts, converter, encoders};
 

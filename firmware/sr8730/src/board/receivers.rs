@@ -28,11 +28,13 @@ static RATE_LIMITS: [InterruptRateLimit; RECEIVERS] =
 
 type DockLeft = Pin<'A', 14, Input>;
 type DockRight = Pin<'A', 15, Input>;
+#[cfg(not(feature = "link-spi"))]
 type RearLeft = Pin<'F', 6, Input>;
 type RearRight = Pin<'E', 8, Input>;
 
 static DOCK_LEFT: HandlerCell<vector::EXTERNAL_3, DockLeft> = HandlerCell::empty();
 static DOCK_RIGHT: HandlerCell<vector::EXTERNAL_4, DockRight> = HandlerCell::empty();
+#[cfg(not(feature = "link-spi"))]
 static REAR_LEFT: HandlerCell<vector::EXTERNAL_0, RearLeft> = HandlerCell::empty();
 static REAR_RIGHT: HandlerCell<vector::EXTERNAL_1, RearRight> = HandlerCell::empty();
 
@@ -43,6 +45,14 @@ const SOURCES: [Source; RECEIVERS] = [
     Source::External0,
     Source::External1,
 ];
+
+/// Those that are there.
+#[cfg(not(feature = "link-spi"))]
+const FITTED: [Source; RECEIVERS] = SOURCES;
+
+/// Those that are there: a link by SPI has the pin of the rear left one, which then never hears anything.
+#[cfg(feature = "link-spi")]
+const FITTED: [Source; 3] = [Source::External3, Source::External4, Source::External1];
 
 macro_rules! on_edge {
     ($handler:ident, $vector:ident, $cell:ident, $number:literal) => {
@@ -63,6 +73,7 @@ macro_rules! on_edge {
 
 on_edge!(on_dock_left, EXTERNAL_3, DOCK_LEFT, 0);
 on_edge!(on_dock_right, EXTERNAL_4, DOCK_RIGHT, 1);
+#[cfg(not(feature = "link-spi"))]
 on_edge!(on_rear_left, EXTERNAL_0, REAR_LEFT, 2);
 on_edge!(on_rear_right, EXTERNAL_1, REAR_RIGHT, 3);
 
@@ -107,6 +118,7 @@ fn follow(pin: &mut impl Follow) -> bool {
 pub struct ReceiverPins {
     pub dock_left: DockLeft,
     pub dock_right: DockRight,
+    #[cfg(not(feature = "link-spi"))]
     pub rear_left: RearLeft,
     pub rear_right: RearRight,
 }
@@ -125,11 +137,13 @@ impl BeamReceivers {
     pub fn take(mut pins: ReceiverPins, codes: Option<BeamCodes>) -> Self {
         follow(&mut pins.dock_left);
         follow(&mut pins.dock_right);
+        #[cfg(not(feature = "link-spi"))]
         follow(&mut pins.rear_left);
         follow(&mut pins.rear_right);
         // Each is given once, because `Peripherals` gives its pins once.
         DOCK_LEFT.hand_over(pins.dock_left).ok();
         DOCK_RIGHT.hand_over(pins.dock_right).ok();
+        #[cfg(not(feature = "link-spi"))]
         REAR_LEFT.hand_over(pins.rear_left).ok();
         REAR_RIGHT.hand_over(pins.rear_right).ok();
         for vector in [
@@ -141,7 +155,7 @@ impl BeamReceivers {
             interrupt::set_priority(vector, Priority::Level3, SubPriority::Sub0).ok();
         }
         if codes.is_some() {
-            for source in SOURCES {
+            for source in FITTED {
                 source.enable();
             }
         }

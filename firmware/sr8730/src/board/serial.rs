@@ -4,7 +4,9 @@
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
 use cordlib::board::HeadingSensor;
-use pic32mx3_hal::gpio::{Input, Output, Pin};
+#[cfg(not(feature = "link-spi"))]
+use pic32mx3_hal::gpio::Output;
+use pic32mx3_hal::gpio::{Input, Pin};
 use pic32mx3_hal::interrupt;
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
 use pic32mx3_hal::uart::{Listener, Receiver, Uart};
@@ -111,13 +113,27 @@ fn user(port: PortNumber) -> User {
     }
 }
 
+/// Low = the gyro module has power.
+#[cfg(not(feature = "link-spi"))]
+pub type GyroSwitch = Pin<'F', 7, Output>;
+
+/// A link by SPI has the pin of the switch: the module has power always or never.
+#[cfg(feature = "link-spi")]
+#[derive(Debug)]
+pub struct GyroSwitch;
+
+#[cfg(feature = "link-spi")]
+impl GyroSwitch {
+    const fn set_low(&mut self) {}
+    const fn set_high(&mut self) {}
+}
+
 /// Both ports and the power of the module.
 #[derive(Debug)]
 pub struct SerialPorts {
     one: Listener<1>,
     two: Listener<2>,
-    /// Low = the gyro module has power.
-    power: Pin<'F', 7, Output>,
+    power: GyroSwitch,
     gyro: Option<(PortNumber, u32)>,
     probed: Option<PortNumber>,
 }
@@ -128,7 +144,7 @@ pub struct SerialPorts {
 pub struct SerialParts {
     pub uart1: (Uart<1>, Pin<'F', 2, Input>),
     pub uart2: (Uart<2>, Pin<'F', 4, Input>),
-    pub power: Pin<'F', 7, Output>,
+    pub power: GyroSwitch,
 }
 
 impl SerialPorts {

@@ -17,7 +17,13 @@ use super::contacts::{Adapter, BumperContacts, ButtonLines, DropSwitches, DustBo
 use super::encoders::{EncoderLines, WheelEncoders};
 use super::interlock::InterlockedMotor;
 use super::kept::KeptCopies;
-use super::link::{InputParts, SerialLink};
+use super::link::BoardLink;
+#[cfg(feature = "link-i2c")]
+use super::link::i2c::I2cParts;
+#[cfg(feature = "link-spi")]
+use super::link::spi::SpiParts;
+#[cfg(serial_link)]
+use super::link::uart::InputParts;
 use super::panel::{DisplayPins, LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
 use super::receivers::{BeamReceivers, ReceiverPins};
@@ -137,6 +143,7 @@ macro_rules! feelers {
                 ReceiverPins {
                     dock_left: pin!($p.ra14 is DOCK_RECEIVER_LEFT).into_input(),
                     dock_right: pin!($p.ra15 is DOCK_RECEIVER_RIGHT).into_input(),
+                    #[cfg(not(feature = "link-spi"))]
                     rear_left: pin!($p.rf6 is REAR_RECEIVER_LEFT).into_input(),
                     rear_right: pin!($p.re8 is REAR_RECEIVER_RIGHT).into_input(),
                 },
@@ -189,7 +196,7 @@ macro_rules! panel {
 }
 
 /// The link's input.
-#[cfg(not(feature = "link-sampled"))]
+#[cfg(all(serial_link, not(feature = "link-sampled")))]
 macro_rules! link_input {
     ($chip:ident, $p:ident) => {
         InputParts {
@@ -210,6 +217,72 @@ macro_rules! link_input {
             notice: $chip.change_notice,
             timer: $chip.timer5,
         }
+    };
+}
+
+/// The serial link.
+#[cfg(serial_link)]
+macro_rules! link {
+    ($chip:ident, $p:ident) => {{
+        #[cfg(feature = "link-rs485")]
+        leave(pin!($p.rg2 is SPARE_RG2).into_output(Low));
+        BoardLink::take(
+            link_input!($chip, $p),
+            pin!($p.rb7 is LINK_TRANSMIT).into_output(High),
+            $chip.timer4,
+        )
+    }};
+}
+
+/// The link by SPI.
+#[cfg(feature = "link-spi")]
+macro_rules! link {
+    ($chip:ident, $p:ident) => {
+        BoardLink::take(SpiParts {
+            spi: $chip.spi1,
+            pins: (
+                pin!($p.rf6 is REAR_RECEIVER_LEFT).into_input(),
+                pin!($p.rf8 is SPARE_RF8).into_output(Low),
+                pin!($p.rf7 is GYRO_POWER).into_input(),
+            ),
+            select: pin!($p.rc13 is LINK_RECEIVE).into_input(),
+            attention: pin!($p.rb7 is LINK_TRANSMIT).into_output(Low),
+            brush: pin!($p.rb5 is BRUSH_MAIN_ENCODER).into_input(),
+            notice: $chip.change_notice,
+        })
+    };
+}
+
+/// The link by I2C.
+#[cfg(feature = "link-i2c")]
+macro_rules! link {
+    ($chip:ident, $p:ident) => {
+        BoardLink::take(I2cParts {
+            i2c: $chip.i2c1,
+            lines: (
+                pin!($p.rg3 is SPARE_RG3).into_input(),
+                pin!($p.rg2 is SPARE_RG2).into_input(),
+            ),
+            attention: pin!($p.rb7 is LINK_TRANSMIT).into_output(Low),
+            brush: pin!($p.rb5 is BRUSH_MAIN_ENCODER).into_input(),
+            notice: $chip.change_notice,
+        })
+    };
+}
+
+/// The switch of the gyro module.
+#[cfg(not(feature = "link-spi"))]
+macro_rules! gyro_switch {
+    ($p:ident) => {
+        pin!($p.rf7 is GYRO_POWER).into_output(High)
+    };
+}
+
+/// The switch of the gyro module, whose pin the link has.
+#[cfg(feature = "link-spi")]
+macro_rules! gyro_switch {
+    ($p:ident) => {
+        super::serial::GyroSwitch
     };
 }
 
@@ -237,15 +310,11 @@ macro_rules! lines {
                 SerialParts {
                     uart1: ($chip.uart1, pin!($p.rf2 is UART1_RECEIVE).into_input()),
                     uart2: ($chip.uart2, pin!($p.rf4 is UART2_RECEIVE).into_input()),
-                    power: pin!($p.rf7 is GYRO_POWER).into_output(High),
+                    power: gyro_switch!($p),
                 },
                 $calibration.gyro(),
             ),
-            SerialLink::take(
-                link_input!($chip, $p),
-                pin!($p.rb7 is LINK_TRANSMIT).into_output(High),
-                $chip.timer4,
-            ),
+            link!($chip, $p),
         )
     };
 }

@@ -17,6 +17,8 @@ pub mod interrupt_rate;
 pub mod ladder;
 pub mod lamps;
 pub mod life;
+#[cfg(any(feature = "link-i2c", test))]
+pub mod link_registers;
 pub mod pack;
 pub mod proximity;
 pub mod quadrature;
@@ -25,3 +27,5 @@ pub mod reset_log;
 pub mod runs;
 pub mod thermistor;
 pub mod tone;
+#[cfg(any(feature = "link-spi", test))]
+pub mod under_way;

@@ -14,6 +14,7 @@ mod error;
 mod gyro;
 mod gyro_frame;
 mod light;
+mod link;
 mod motors;
 pub mod pinout;
 mod power;
@@ -25,6 +26,7 @@ pub use calibration::{CalibrationValues, Particulars, RECORD_ADDRESS, put_record
 pub use contacts::{Contact, Hold};
 pub use error::BoardError;
 pub use gyro_frame::{GyroCheck, GyroFitted, GyroLayout};
+pub use link::{BoardLink, I2cPlaces, SpiPlaces};
 pub use motors::{DriveInterval, MotorOutput, Reaction, reaction};
 pub use robot::{Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 

@@ -26,6 +26,22 @@ impl EmulatedRobot {
         self.to_robot.room()
     }
 
+    /// A bus has carried these bytes of the link's stream to the chip and from it, in the order of the wire: for the judge.
+    pub fn carried_by_bus(
+        &mut self,
+        heard: impl IntoIterator<Item = u8>,
+        said: impl IntoIterator<Item = u8>,
+    ) {
+        for byte in heard {
+            self.monitor.heard(self.now_ms, Some(byte));
+            self.digest.byte(byte);
+        }
+        for byte in said {
+            self.monitor.said(self.now_ms, byte);
+            self.digest.byte(byte);
+        }
+    }
+
     /// Sets how often what goes wrong on the line, both ways.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         self.to_robot.set_rates(rates);
@@ -154,13 +170,13 @@ impl EmulatedRobot {
         &self.monitor
     }
 
-    /// Simulated milliseconds.
+    /// Simulated milliseconds, the one that has begun included.
     #[must_use]
     pub const fn now_ms(&self) -> u64 {
         self.now_ms
     }
 
-    /// Cycles of the chip since power-on, at the end of the last tick.
+    /// Cycles of the chip since power-on, at the end of the last tick, or of the one that has begun.
     #[must_use]
     pub const fn cycle(&self) -> u64 {
         self.now_ms * CYCLES_PER_MS

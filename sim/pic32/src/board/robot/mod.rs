@@ -1,6 +1,7 @@
 //! The robot: chip, board and home together.
 
 mod handles;
+mod passing;
 mod settings;
 
 pub use settings::{Blueprint, BlueprintError, CalibrationChoice, EmulatedSettings};
@@ -23,6 +24,7 @@ use crate::board::serial::{BitReceiver, HostPort, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
 use crate::pins::{Level, PinDriver};
+use passing::BegunTick;
 
 /// Channel of the transmit multiplexer whose emitter the dock sees.
 const FRONT: u8 = 3;
@@ -34,8 +36,6 @@ const CLIFF_SETTLE_MS: u32 = 3;
 const ENVELOPE_MS: u64 = 20;
 /// Vector of the core timer.
 const CORE_TIMER: u8 = 0;
-/// Milliseconds between two poses in the digest.
-const DIGEST_MS: u64 = 100;
 
 /// The emulated chip on its board in a simulated home, with a serial line of edges and the safety monitor. One tick is
 /// 1 ms of the home and 80,000 cycles of the chip.
@@ -71,6 +71,8 @@ pub struct EmulatedRobot {
     /// Entries of the core timer's handler at the last reset, until the first one after it.
     ticks_before: Option<u64>,
     now_ms: u64,
+    /// The millisecond that has begun and not ended.
+    begun: Option<BegunTick>,
     resets: u32,
     cliff_settled_ms: u32,
     /// Receivers that saw no floor when they were lit last, from the left.
@@ -120,6 +122,7 @@ impl EmulatedRobot {
             charge_switch_shorted: false,
             ticks_before: Some(0),
             now_ms: 0,
+            begun: None,
             resets: 0,
             cliff_settled_ms: 0,
             cliffs_seen: [false; 3],
@@ -161,35 +164,6 @@ impl EmulatedRobot {
         }
         self.lights.watch(&mut self.machine);
         self.sound.watch(&mut self.machine);
-    }
-
-    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the
-    /// chip did. What reaches the host's receiver is appended to `to_host`.
-    pub fn tick(&mut self, to_host: &mut Vec<u8>) {
-        let from = self.now_ms * CYCLES_PER_MS;
-        self.now_ms += 1;
-        let end = self.now_ms * CYCLES_PER_MS;
-        self.world.step(&self.actuation);
-        self.circuit.sensors = *self.world.sensors();
-        self.drive_inputs(from);
-        self.send_to_robot(from);
-        let pins = self.pins();
-        self.run(from, end);
-        self.look_at_emitter(end);
-        self.lights.take(&mut self.machine, end);
-        self.sound.take(&mut self.machine);
-        self.motors.take(&mut self.machine, end);
-        self.hear_robot(end, to_host);
-        self.actuate(end);
-        self.notice_resets();
-        let drives = self.driven();
-        self.monitor.judge(self.now_ms, &pins, &drives);
-        if self.now_ms.is_multiple_of(DIGEST_MS) {
-            let pose = self.world.truth().pose;
-            for part in [pose.x_m, pose.y_m, pose.heading_rad] {
-                self.digest.word(part.to_bits());
-            }
-        }
     }
 
     /// The home moves wheels and switches.

@@ -2,12 +2,12 @@
 
 use monitor::Bridges;
 
-use crate::board::BoardError;
 use crate::board::calibration::{CalibrationValues, Particulars, erase_record, has_record, put_record};
 use crate::board::gyro_frame::GyroFitted;
 use crate::board::pinout::Pinout;
 use crate::board::serial::HostRate;
 use crate::board::wiring::Wiring;
+use crate::board::{BoardError, BoardLink};
 use crate::image::{Image, ImageError};
 
 /// Which calibration record the robot's flash holds.
@@ -105,6 +105,17 @@ impl Blueprint {
         Ok(Self {
             wiring: Wiring::of(pinout)?,
             particulars,
+            ..self
+        })
+    }
+
+    /// The same with another link to the Linux board, for which the program was built.
+    ///
+    /// # Errors
+    /// When the project's own description of the board is wrong.
+    pub fn linked_by(self, link: BoardLink) -> Result<Self, BlueprintError> {
+        Ok(Self {
+            wiring: link.wiring()?,
             ..self
         })
     }

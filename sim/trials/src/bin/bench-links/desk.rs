@@ -7,7 +7,7 @@ use std::sync::Arc;
 use anyhow::{Context, bail};
 use home::{Home, Noise, Pose, RobotModel, World};
 use pic32::board::serial::HostRate;
-use pic32::board::{Blueprint, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings};
+use pic32::board::{Blueprint, BoardLink, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 use pic32::image::Image;
 use rvac_channel::Pcg32;
 use rvac_protocol::PacketBuffer;
@@ -15,28 +15,30 @@ use rvac_protocol::frame::{SEPARATOR, SEPARATOR_2016};
 use rvac_protocol::message::{BinaryKinds, Command, Drive, Info, Parameter, Report, Sequence};
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{AngularSpeed, Speed, Tick};
-use serde::Serialize;
 
-use crate::wire::{BAUD, LinkKind, Wire};
+use crate::bus::ClockedBus;
+use crate::measured::{LEASE_MS, Measured, STATE_MS};
+use crate::wire::{BAUD, LinkKind, NOISE, Wire};
 
 const SEED: u64 = 41;
+/// How often the host looks at the attention line: a tenth of a millisecond.
+const LOOK_CYCLES: u64 = CYCLES_PER_MS / 10;
 /// How long the handshake may take.
 const CONNECT_MS: u64 = 5_000;
 /// Time for the first reports, and for what is under way to arrive.
 const SETTLE_MS: u64 = 500;
-/// Between two states that the robot is asked for.
-const STATE_MS: i32 = 20;
 /// Between two reports of slow facts; setting it is the question whose answer is timed.
 const INFO_MS: i32 = 1_000;
-/// Life of a motion command, and how often it is renewed.
-const LEASE_MS: u16 = 250;
+/// How often a motion command is renewed.
 const RENEW_MS: u64 = 50;
 /// A question whose answer is timed.
 const QUESTION_MS: u64 = 100;
-/// The robot may take as long as the lease, the ramp of its wheels and two of its ticks.
-const STAND_MS: u64 = LEASE_MS as u64 + 150;
 /// The cable stays out for longer than that.
 const CUT_MS: u32 = 1_500;
+/// How long the host asks for states as fast as they come, how many it has asked for at once, and how long it waits for them.
+const ASKED_MS: u64 = 2_000;
+const ASKED_AT_ONCE: u64 = 3;
+const PATIENCE_MS: u64 = 100;
 /// Packets of the robot that may still be under way.
 const RECENT_PACKETS: usize = 400;
 /// Where a circle is free in the two-room flat.
@@ -54,56 +56,6 @@ const CIRCLE: Drive = Drive {
     seen_tick: Tick(0),
 };
 
-/// The figures of one link.
-#[derive(Debug, Default, Serialize)]
-pub(crate) struct Measured {
-    /// Which.
-    pub(crate) kind: &'static str,
-    /// Bytes and packets lost or damaged in both directions, without noise.
-    pub(crate) lost_bytes: u64,
-    /// With noise: reports that the host took and the robot has not sent, and breaches of the safety rules.
-    pub(crate) wrong_packets: u64,
-    /// 99 of 100 questions were answered within this time, without noise.
-    pub(crate) p99_ms: u64,
-    /// States a second that reached the host, without noise.
-    pub(crate) telemetry_hz: f64,
-    /// Share of the chip's time in which it worked, without noise.
-    pub(crate) cpu_percent: f64,
-    /// Longest time from a cable that comes out until the wheels are not driven.
-    pub(crate) stands_ms: u64,
-    /// Moments at which it came out.
-    pub(crate) cuts: u32,
-    /// Simulated seconds.
-    pub(crate) seconds: u64,
-}
-
-impl Measured {
-    /// What should not be.
-    pub(crate) fn faults(&self) -> Vec<String> {
-        let kind = self.kind;
-        let mut faults = Vec::new();
-        // Where both share a wire, both begin at once now and then: neither is understood, and the session repeats.
-        let shares_wire = kind == LinkKind::HalfDuplex.name();
-        if self.lost_bytes > 0 && !shares_wire {
-            faults.push(format!("{kind} lost {} bytes without noise", self.lost_bytes));
-        }
-        if self.wrong_packets > 0 {
-            faults.push(format!("{kind} passed {} wrong packets", self.wrong_packets));
-        }
-        let least = if shares_wire { 0.8 } else { 0.95 };
-        if self.telemetry_hz < least * 1_000.0 / f64::from(STATE_MS) {
-            faults.push(format!("{kind} brought {:.1} states a second", self.telemetry_hz));
-        }
-        if self.stands_ms > STAND_MS {
-            faults.push(format!(
-                "{kind}: the wheels stood {} ms after the cut",
-                self.stands_ms
-            ));
-        }
-        faults
-    }
-}
-
 /// Everything that a robot is made of, read once.
 #[derive(Debug)]
 pub(crate) struct Trial {
@@ -114,12 +66,12 @@ pub(crate) struct Trial {
 
 impl Trial {
     /// Reads the firmware and the home.
-    pub(crate) fn open(firmware: &Path, home: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn open(firmware: &Path, link: BoardLink, home: &Path) -> anyhow::Result<Self> {
         let named = || format!("the firmware {}", firmware.display());
         let image = Image::from_elf(&std::fs::read(firmware).with_context(named)?).with_context(named)?;
         let model = RobotModel::by_name("sr8730")?;
         Ok(Self {
-            blueprint: Blueprint::sr8730(image, &CalibrationChoice::Complete)?,
+            blueprint: Blueprint::sr8730(image, &CalibrationChoice::Complete)?.linked_by(link)?,
             home: Arc::new(Home::load(home, &model)?),
             model,
         })
@@ -148,10 +100,11 @@ impl Trial {
             ..Measured::default()
         };
         desk.measure_quiet(half_ms, &mut measured)?;
-        desk.wire.make_noisy(SEED);
+        measured.telemetry_max_hz = desk.ask_for_states();
+        desk.make_noisy();
         desk.circle_ms(half_ms);
         measured.wrong_packets = desk.wrong + u64::from(desk.robot.monitor().count());
-        desk.wire = Wire::new(kind, SEED);
+        desk.make_quiet(kind);
         desk.pass_ms(SETTLE_MS);
         measured.stands_ms = desk.cut(cuts)?;
         Ok(measured)
@@ -163,12 +116,17 @@ impl Trial {
 struct Desk {
     robot: EmulatedRobot,
     wire: Wire,
+    /// In place of the wire, where the host clocks.
+    bus: Option<ClockedBus>,
     session: HostSession,
     packet: PacketBuffer,
     from_robot: Vec<u8>,
     to_send: Vec<u8>,
     info: Option<Info>,
     states: u64,
+    /// When the motion is to be renewed, and when the next question is due.
+    renew_ms: u64,
+    ask_ms: u64,
     asked: Vec<(Sequence, u64)>,
     answered_ms: Vec<u64>,
     /// Packets as the robot sent them, newest last, and the one that it is sending.
@@ -180,8 +138,9 @@ struct Desk {
 }
 
 impl Desk {
-    fn new(robot: EmulatedRobot, kind: LinkKind) -> Self {
+    fn new(mut robot: EmulatedRobot, kind: LinkKind) -> Self {
         Self {
+            bus: ClockedBus::open(kind, &mut robot),
             robot,
             wire: Wire::new(kind, SEED),
             session: HostSession::new(BinaryKinds::ALL, Tick(0)),
@@ -190,6 +149,8 @@ impl Desk {
             to_send: Vec::new(),
             info: None,
             states: 0,
+            renew_ms: 0,
+            ask_ms: RENEW_MS / 2,
             asked: Vec::new(),
             answered_ms: Vec::new(),
             sent: VecDeque::new(),
@@ -199,16 +160,72 @@ impl Desk {
         }
     }
 
-    fn now(&self) -> Tick {
-        Tick(self.robot.now_ms() as u32)
+    fn make_noisy(&mut self) {
+        self.wire.make_noisy(SEED);
+        if let Some(bus) = &mut self.bus {
+            bus.make_noisy(SEED, NOISE);
+        }
     }
 
-    /// One millisecond.
+    fn make_quiet(&mut self, kind: LinkKind) {
+        self.wire = Wire::new(kind, SEED);
+        if let Some(bus) = &mut self.bus {
+            bus.make_quiet();
+        }
+    }
+
+    fn now_ms(&self) -> u64 {
+        self.robot.machine().cycle() / CYCLES_PER_MS
+    }
+
+    fn now(&self) -> Tick {
+        Tick(self.now_ms() as u32)
+    }
+
+    /// One millisecond; where the host clocks, as many as the transfer takes that ends last.
     fn tick(&mut self) {
+        match self.bus.take() {
+            None => self.tick_of_wire(),
+            Some(mut bus) => {
+                self.tick_of_bus(&mut bus);
+                self.bus = Some(bus);
+            }
+        }
+    }
+
+    fn tick_of_bus(&mut self, bus: &mut ClockedBus) {
+        let end = (self.now_ms() + 1) * CYCLES_PER_MS;
+        while self.robot.machine().cycle() < end {
+            while let Some(event) = self.session.poll(self.now()) {
+                self.note(event);
+            }
+            while self.session.next_packet(&mut self.packet) {
+                self.to_send.extend_from_slice(self.packet.as_bytes());
+            }
+            bus.send(&self.to_send);
+            self.to_send.clear();
+            let cycle = self.robot.machine().cycle();
+            let due = bus.due(&self.robot);
+            if due > cycle {
+                // The attention line may rise meanwhile.
+                let next = due.min(end).min(cycle + LOOK_CYCLES);
+                self.robot.advance_to(next, &mut Vec::new());
+                continue;
+            }
+            let mut heard = Vec::new();
+            bus.turn(&mut self.robot, &mut heard);
+            self.remember(&bus.take_said());
+            for byte in heard {
+                self.hear(byte);
+            }
+        }
+    }
+
+    fn tick_of_wire(&mut self) {
         let mut from_robot = std::mem::take(&mut self.from_robot);
         from_robot.clear();
         self.robot.tick(&mut from_robot);
-        let now_ms = self.robot.now_ms();
+        let now_ms = self.now_ms();
         self.remember(&from_robot);
         let heard = self.wire.carry_up(now_ms, &from_robot);
         self.from_robot = from_robot;
@@ -230,7 +247,7 @@ impl Desk {
     fn remember(&mut self, bytes: &[u8]) {
         for byte in bytes {
             if *byte != SEPARATOR {
-                self.sending.push(*byte);
+                push_unless_empty(&mut self.sending, *byte);
                 continue;
             }
             self.sent.push_back(std::mem::take(&mut self.sending));
@@ -252,7 +269,7 @@ impl Desk {
         if byte == SEPARATOR || byte == SEPARATOR_2016 {
             self.hearing.clear();
         } else {
-            self.hearing.push(byte);
+            push_unless_empty(&mut self.hearing, byte);
         }
     }
 
@@ -266,7 +283,7 @@ impl Desk {
             } => {
                 if let Some(place) = self.asked.iter().position(|(asked, _)| *asked == number) {
                     let (_, asked_ms) = self.asked.swap_remove(place);
-                    self.answered_ms.push(self.robot.now_ms() - asked_ms);
+                    self.answered_ms.push(self.now_ms() - asked_ms);
                 }
             }
             _ => {}
@@ -281,15 +298,16 @@ impl Desk {
     }
 
     fn pass_ms(&mut self, ms: u64) {
-        for _ in 0..ms {
+        let end = self.now_ms() + ms;
+        while self.now_ms() < end {
             self.tick();
         }
     }
 
     fn connect(&mut self) -> anyhow::Result<()> {
-        let end = self.robot.now_ms() + CONNECT_MS;
+        let end = self.now_ms() + CONNECT_MS;
         while !self.session.is_open() {
-            if self.robot.now_ms() >= end {
+            if self.now_ms() >= end {
                 bail!("the robot did not open a session within {CONNECT_MS} ms");
             }
             self.tick();
@@ -314,12 +332,15 @@ impl Desk {
 
     /// Drives in circles for so long, and asks something now and then.
     fn circle_ms(&mut self, ms: u64) {
-        for _ in 0..ms {
-            let now_ms = self.robot.now_ms();
-            if now_ms.is_multiple_of(RENEW_MS) {
+        let end = self.now_ms() + ms;
+        while self.now_ms() < end {
+            let now_ms = self.now_ms();
+            if now_ms >= self.renew_ms {
+                self.renew_ms = now_ms + RENEW_MS;
                 self.send(Command::Drive(CIRCLE));
             }
-            if now_ms % QUESTION_MS == RENEW_MS / 2 {
+            if now_ms >= self.ask_ms {
+                self.ask_ms = now_ms + QUESTION_MS;
                 let asked = self.send(Command::Set {
                     sequence: Sequence(0),
                     parameter: Parameter::InfoPeriod,
@@ -338,7 +359,7 @@ impl Desk {
         let states_before = self.states;
         self.robot.machine_mut().restart_accounting();
         self.circle_ms(ms);
-        let cycle = self.robot.now_ms() * CYCLES_PER_MS;
+        let cycle = self.robot.machine().cycle();
         measured.cpu_percent = 100.0 * (1.0 - self.robot.machine().accounting().idle_share(cycle));
         measured.telemetry_hz = (self.states - states_before) as f64 * 1e3 / ms as f64;
         if !self.robot.wheels_driven() {
@@ -358,10 +379,36 @@ impl Desk {
         Ok(())
     }
 
+    /// States a second that come when they are asked for.
+    fn ask_for_states(&mut self) -> f64 {
+        let begin_ms = self.now_ms();
+        let before = self.states;
+        let (mut asked, mut last) = (before, (before, begin_ms));
+        while self.now_ms() < begin_ms + ASKED_MS {
+            if self.states != last.0 {
+                last = (self.states, self.now_ms());
+            } else if self.now_ms() > last.1 + PATIENCE_MS {
+                asked = self.states;
+                last.1 = self.now_ms();
+            }
+            // States that come by themselves count as well.
+            asked = asked.max(self.states);
+            if asked < self.states + ASKED_AT_ONCE {
+                self.send(Command::State);
+                asked += 1;
+            }
+            self.tick();
+        }
+        let states = (self.states - before) as f64 * 1e3 / (self.now_ms() - begin_ms) as f64;
+        self.pass_ms(SETTLE_MS);
+        states
+    }
+
     fn ask_info(&mut self) -> anyhow::Result<Info> {
         self.info = None;
         self.send(Command::Info);
-        for _ in 0..2_000 {
+        let end = self.now_ms() + 2_000;
+        while self.now_ms() < end {
             self.tick();
             if let Some(info) = self.info.take() {
                 return Ok(info);
@@ -381,18 +428,32 @@ impl Desk {
                 bail!("the robot should drive before the cable comes out");
             }
             self.robot.cut_line(CUT_MS);
-            let begin_ms = self.robot.now_ms();
+            let begin_ms = self.now_ms();
+            if let Some(bus) = &mut self.bus {
+                // At any bit of a transfer.
+                let from = begin_ms * CYCLES_PER_MS + u64::from(random.below(CYCLES_PER_MS as u32));
+                bus.cut(from, from + u64::from(CUT_MS) * CYCLES_PER_MS);
+            }
             let mut driven_ms = begin_ms;
-            for _ in 0..CUT_MS {
+            while self.now_ms() < begin_ms + u64::from(CUT_MS) {
                 // A host that does not know goes on.
                 self.circle_ms(1);
                 if self.robot.wheels_driven() {
-                    driven_ms = self.robot.now_ms();
+                    driven_ms = self.now_ms();
                 }
             }
             longest_ms = longest_ms.max(driven_ms - begin_ms);
             self.pass_ms(4 * SETTLE_MS);
         }
         Ok(longest_ms)
+    }
+}
+
+/// A robot on I2C that is asked for more than waits, because noise was on the number, answers so. No packet begins with it.
+const EMPTY: u8 = 0;
+
+fn push_unless_empty(packet: &mut Vec<u8>, byte: u8) {
+    if byte != EMPTY || !packet.is_empty() {
+        packet.push(byte);
     }
 }

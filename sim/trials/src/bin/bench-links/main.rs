@@ -2,28 +2,43 @@
 //! whether the wheels stand when the cable is out. `cargo xtask bench link --kinds uart,tcp` builds and runs it.
 #![forbid(unsafe_code)]
 
+mod bus;
 mod desk;
+mod measured;
 mod wire;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::Context;
 use clap::Parser;
-use desk::{Measured, Trial};
+use desk::Trial;
+use measured::Measured;
+use pic32::board::BoardLink;
 use wire::LinkKind;
 
 /// Measures links against a firmware in the emulated chip.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// The firmware, as ELF.
+    /// The firmware with a serial link, as ELF.
     #[arg(long)]
     firmware: PathBuf,
+    /// The firmware with its link by SPI.
+    #[arg(long)]
+    firmware_spi: Option<PathBuf>,
+    /// The firmware with its link by I2C.
+    #[arg(long)]
+    firmware_i2c: Option<PathBuf>,
     /// Floor plan.
     #[arg(long, default_value = "homes/two-room-flat.toml")]
     home: PathBuf,
     /// Links to measure.
-    #[arg(long, value_delimiter = ',', default_value = "uart,half-duplex,tcp,usb")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "uart,half-duplex,spi,i2c,tcp,usb"
+    )]
     kinds: Vec<LinkKind>,
     /// Simulated seconds of each, half of them with noise.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u64).range(2..=86_400))]
@@ -34,6 +49,23 @@ struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+}
+
+impl Arguments {
+    /// The firmware that was built for a kind of link.
+    fn firmware(&self, kind: LinkKind) -> anyhow::Result<&Path> {
+        let (path, argument) = match kind.at_the_board() {
+            BoardLink::Serial => return Ok(&self.firmware),
+            BoardLink::Spi => (&self.firmware_spi, "--firmware-spi"),
+            BoardLink::I2c => (&self.firmware_i2c, "--firmware-i2c"),
+        };
+        path.as_deref().with_context(|| {
+            format!(
+                "{} needs {argument}: a firmware that was built for it",
+                kind.name()
+            )
+        })
+    }
 }
 
 fn main() -> ExitCode {
@@ -47,9 +79,9 @@ fn main() -> ExitCode {
 
 /// Measures each link and prints the figures; gives what should not be.
 fn measure(arguments: &Arguments) -> anyhow::Result<Vec<String>> {
-    let trial = Trial::open(&arguments.firmware, &arguments.home)?;
     let mut links = Vec::new();
     for kind in &arguments.kinds {
+        let trial = Trial::open(arguments.firmware(*kind)?, kind.at_the_board(), &arguments.home)?;
         links.push(trial.measure(*kind, arguments.seconds, arguments.cuts)?);
     }
     let mut out = io::stdout();
@@ -63,15 +95,16 @@ fn measure(arguments: &Arguments) -> anyhow::Result<Vec<String>> {
 }
 
 fn table(links: &[Measured]) -> String {
-    let head = "link         lost bytes  wrong packets  p99 ms  telemetry Hz  chip busy %  stands after ms\n";
+    let head = "link         lost bytes  wrong packets  p99 ms  telemetry Hz  asked for Hz  chip busy %  stands after ms\n";
     links.iter().fold(head.to_owned(), |all, link| {
         all + &format!(
-            "{:12} {:10}  {:13}  {:6}  {:12.1}  {:11.1}  {:15}\n",
+            "{:12} {:10}  {:13}  {:6}  {:12.1}  {:12.1}  {:11.1}  {:15}\n",
             link.kind,
             link.lost_bytes,
             link.wrong_packets,
             link.p99_ms,
             link.telemetry_hz,
+            link.telemetry_max_hz,
             link.cpu_percent,
             link.stands_ms
         )

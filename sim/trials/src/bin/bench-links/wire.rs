@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use clap::ValueEnum;
+use pic32::board::BoardLink;
 use robot_link::OneWire;
 use rvac_channel::{Channel, FaultRates, Pcg32, ReceivedByte};
 
@@ -17,7 +18,7 @@ const NETWORK_MS: u64 = 2;
 const STALL_SHARE: f64 = 0.02;
 const STALL_MS: u32 = 40;
 /// Damage for the second half of a measurement: a bit in five thousand, a byte in five thousand, and bursts.
-const NOISE: FaultRates = FaultRates {
+pub(crate) const NOISE: FaultRates = FaultRates {
     bit_error: 2e-4,
     lost_byte: 2e-4,
     burst: 1e-4,
@@ -36,9 +37,22 @@ pub(crate) enum LinkKind {
     Tcp,
     /// USB.
     Usb,
+    /// SPI, the host is master.
+    Spi,
+    /// I2C, the host is master.
+    I2c,
 }
 
 impl LinkKind {
+    /// The link that the firmware must have been built for.
+    pub(crate) const fn at_the_board(self) -> BoardLink {
+        match self {
+            Self::Uart | Self::HalfDuplex | Self::Tcp | Self::Usb => BoardLink::Serial,
+            Self::Spi => BoardLink::Spi,
+            Self::I2c => BoardLink::I2c,
+        }
+    }
+
     /// Its name in the arguments.
     pub(crate) const fn name(self) -> &'static str {
         match self {
@@ -46,6 +60,8 @@ impl LinkKind {
             Self::HalfDuplex => "half-duplex",
             Self::Tcp => "tcp",
             Self::Usb => "usb",
+            Self::Spi => "spi",
+            Self::I2c => "i2c",
         }
     }
 }
@@ -107,7 +123,8 @@ impl Wire {
 
     fn delay_ms(&mut self) -> u64 {
         match self.kind {
-            LinkKind::Uart | LinkKind::HalfDuplex => 0,
+            // What a host clocks has no delay of its own, and passes elsewhere.
+            LinkKind::Uart | LinkKind::HalfDuplex | LinkKind::Spi | LinkKind::I2c => 0,
             LinkKind::Usb => USB_MS,
             LinkKind::Tcp if self.random.happens(STALL_SHARE) => {
                 NETWORK_MS + u64::from(self.random.below(STALL_MS))

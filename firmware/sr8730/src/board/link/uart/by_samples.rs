@@ -14,6 +14,7 @@ use pic32mx3_hal::timer::{Prescaler, Timer};
 use soft_uart::{Baud, ByteRing, Level, Sampler};
 
 use super::by_edges;
+use crate::board::link::brush;
 use crate::board::off::mask;
 use crate::generated::pins;
 
@@ -72,7 +73,7 @@ impl SampledInput {
     /// Starts receiving at the fixed rate.
     #[must_use]
     pub fn take(mut parts: SampledParts, _: Baud) -> Self {
-        by_edges::watch(parts.brush, parts.notice);
+        brush::watch(parts.brush, parts.notice);
         by_edges::listen();
         // Given once, because `Peripherals` gives the timer once.
         SAMPLER.hand_over(Sampler::new()).ok();
