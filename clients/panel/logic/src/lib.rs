@@ -102,6 +102,7 @@ pub use learnt::{LearntRobot, LearntRow, learnt_robots};
 pub use lending::{LENT_NAME_MAX, Lending, lending_text, lent_name};
 pub use log_book::{LogBook, LogFilter};
 pub use map_palette::{MapPalette, Rgb};
+pub use matter::{MatterSight, matter_sight};
 pub use mixes::{
     CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
     MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
@@ -116,7 +117,6 @@ pub use playout::Playout;
 pub use point::{MapPoint, Pixel};
 pub use pressing::Presses;
 pub use primary::{Primary, Wishes};
-pub use matter::{MatterSight, matter_sight};
 pub use qr::QrPicture;
 pub use reshape::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Outline, Reshape, Reshaped, Target};
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
