@@ -282,6 +282,20 @@ fn tones_follow_one_another_with_the_pause_between_them() {
     }
 }
 
+/// Lights one light at this brightness, in millionths, and asserts that it is lit for this share of the time, and no other.
+fn assert_lit_alone(desk: &mut Desk, light: u8, brightness: i32, percent: u64) {
+    desk.light(light, LedPattern::On, ratio(brightness));
+    let (shares, elsewhere) = desk.watch_lights(320);
+    for (number, share) in shares.iter().enumerate() {
+        let wanted = if number == usize::from(light) { percent } else { 0 };
+        assert!(
+            share.abs_diff(wanted) <= 2,
+            "light {light} at {brightness}: {shares:?}"
+        );
+    }
+    assert!(!elsewhere, "light {light} is the only one");
+}
+
 #[test]
 fn each_light_is_lit_alone_as_brightly_as_it_was_told() {
     let Some(mut desk) = Desk::new() else { return };
@@ -292,16 +306,7 @@ fn each_light_is_lit_alone_as_brightly_as_it_was_told() {
     for light in 0..LIGHTS {
         // A supply is on for half of the time.
         for (brightness, percent) in [(1_000_000, 50_u64), (500_000, 25), (125_000, 6)] {
-            desk.light(light, LedPattern::On, ratio(brightness));
-            let (shares, elsewhere) = desk.watch_lights(320);
-            for (number, share) in shares.iter().enumerate() {
-                let wanted = if number == usize::from(light) { percent } else { 0 };
-                assert!(
-                    share.abs_diff(wanted) <= 2,
-                    "light {light} at {brightness}: {shares:?}"
-                );
-            }
-            assert!(!elsewhere, "light {light} is the only one");
+            assert_lit_alone(&mut desk, light, brightness, percent);
         }
         desk.light(light, LedPattern::Off, Ratio::ONE);
         let (shares, _) = desk.watch_lights(64);
@@ -408,16 +413,7 @@ fn lights_beside_a_display_are_lit_alone_and_half_as_brightly() {
     }
     for light in 0..LIGHTS {
         for (brightness, percent) in [(1_000_000, 25_u64), (500_000, 12), (1, 6)] {
-            desk.light(light, LedPattern::On, ratio(brightness));
-            let (shares, elsewhere) = desk.watch_lights(320);
-            for (number, share) in shares.iter().enumerate() {
-                let wanted = if number == usize::from(light) { percent } else { 0 };
-                assert!(
-                    share.abs_diff(wanted) <= 2,
-                    "light {light} at {brightness}: {shares:?}"
-                );
-            }
-            assert!(!elsewhere, "light {light} is the only one");
+            assert_lit_alone(&mut desk, light, brightness, percent);
         }
         let percent = desk.charge_percent.expect("the battery has been measured");
         assert_eq!(
