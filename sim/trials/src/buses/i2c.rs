@@ -3,10 +3,9 @@
 use pic32::board::{CYCLES_PER_S, EmulatedRobot, I2cPlaces};
 use pic32::pins::{Level, Pin};
 use robot_link::I2cBus;
-use rvac_channel::FaultRates;
 
 use super::listener::{BusListener, StreamByte};
-use super::noise::{BusNoise, PulseFault};
+use super::noise::PulseFault;
 use super::{Cable, DRIVER_CYCLES, advance, now};
 
 const PLACES: I2cPlaces = I2cPlaces::SR8730;
@@ -32,13 +31,12 @@ pub enum I2cFailure {
 /// The master, and the cable to the chip.
 #[derive(Clone, Debug)]
 pub struct I2cMaster {
-    noise: Option<BusNoise>,
-    cable: Cable,
+    /// The cable.
+    pub cable: Cable,
     /// Whether the master lets go of its lines.
     clock: bool,
     data: bool,
     listener: BusListener,
-    said: Vec<u8>,
 }
 
 impl I2cMaster {
@@ -50,43 +48,11 @@ impl I2cMaster {
             robot.machine_mut().release_input(pin);
         }
         Self {
-            noise: None,
-            cable: Cable::default(),
+            cable: Cable::new(PLACES.attention),
             clock: true,
             data: true,
             listener: BusListener::default(),
-            said: Vec::new(),
         }
-    }
-
-    /// From now on the lines are damaged.
-    pub fn make_noisy(&mut self, seed: u64, rates: FaultRates) {
-        self.noise = Some(BusNoise::new(seed, rates));
-    }
-
-    /// From now on they are not.
-    pub fn make_quiet(&mut self) {
-        self.noise = None;
-    }
-
-    /// The cable is out between these cycles. Without it the lines are high at both ends.
-    pub const fn cut(&mut self, from: u64, until: u64) {
-        self.cable.out = (from, until);
-    }
-
-    /// What the robot has said since the last call, as its pins had it.
-    pub fn take_said(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.said)
-    }
-
-    /// Whether the robot says that it has something to say.
-    #[must_use]
-    pub fn is_called(&self, robot: &EmulatedRobot) -> bool {
-        !self.cable.is_out(now(robot)) && robot.machine().level(PLACES.attention).is_high()
-    }
-
-    fn bit(&mut self, level: bool) -> bool {
-        self.noise.as_mut().map_or(level, |noise| noise.bit(level))
     }
 }
 
@@ -120,7 +86,7 @@ impl I2cWires<'_> {
             None => {}
             Some(StreamByte::Heard(byte)) => self.robot.carried_by_bus([byte], []),
             Some(StreamByte::Said(byte)) => {
-                self.master.said.push(byte);
+                self.master.cable.say(Some(byte));
                 self.robot.carried_by_bus([], [byte]);
             }
         }
@@ -154,25 +120,21 @@ impl I2cWires<'_> {
 
     /// Puts a bit on the line, damaged or not.
     fn put_bit(&mut self, level: bool) -> Result<(), I2cFailure> {
-        let level = self.master.bit(level);
+        let level = self.master.cable.bit(level);
         self.clock_bit(level).map(drop)
     }
 
     /// Lets go of the line and takes the bit of the robot, damaged or not: on its own pins it stays what the robot has sent.
     fn take_bit(&mut self) -> Result<bool, I2cFailure> {
         let seen = self.clock_bit(true)?;
-        Ok(self.master.bit(seen))
+        Ok(self.master.cable.bit(seen))
     }
 
     /// One bit; `true` lets go of the line. Gives what the master sees.
     fn clock_bit(&mut self, level: bool) -> Result<bool, I2cFailure> {
         self.master.data = level;
         self.pass(QUARTER_CYCLES);
-        let pulse = self
-            .master
-            .noise
-            .as_mut()
-            .map_or(PulseFault::None, BusNoise::pulse);
+        let pulse = self.master.cable.pulse();
         let pulses = match pulse {
             PulseFault::None => 1,
             PulseFault::Lost => 0,
@@ -182,7 +144,7 @@ impl I2cWires<'_> {
         for _ in 0..pulses {
             self.raise_clock()?;
             self.pass(QUARTER_CYCLES);
-            if self.master.noise.as_mut().is_some_and(BusNoise::strikes) {
+            if self.master.cable.strikes() {
                 // A spike on the data line while the clock is high: a start or a stop that nobody made.
                 self.master.data = !self.master.data;
                 self.pass(QUARTER_CYCLES / 2);

@@ -3,11 +3,13 @@
 //! A master drives its lines edge by edge and reads what the chip does to them. What it clocks through is also read at the
 //! chip's own pins, for the judge: it has to know what the robot heard, whatever the cable made of it.
 
+mod cable;
 mod i2c;
 mod listener;
 mod noise;
 mod spi;
 
+pub use cable::Cable;
 pub use i2c::{I2cFailure, I2cMaster, I2cWires};
 pub use spi::{SpiMaster, SpiWires};
 
@@ -15,18 +17,6 @@ use pic32::board::{CYCLES_PER_S, EmulatedRobot};
 
 /// A host's driver takes so long between two transfers.
 const DRIVER_CYCLES: u64 = CYCLES_PER_S * 50 / 1_000_000;
-
-/// The times between which the cable is out, in cycles of the chip.
-#[derive(Clone, Copy, Debug, Default)]
-struct Cable {
-    out: (u64, u64),
-}
-
-impl Cable {
-    const fn is_out(self, cycle: u64) -> bool {
-        self.out.0 <= cycle && cycle < self.out.1
-    }
-}
 
 /// The cycle that the chip has reached.
 fn now(robot: &EmulatedRobot) -> u64 {

@@ -6,10 +6,9 @@ use std::convert::Infallible;
 use pic32::board::{CYCLES_PER_S, EmulatedRobot, SpiPlaces};
 use pic32::pins::{Level, Pin};
 use robot_link::SpiBus;
-use rvac_channel::FaultRates;
 use rvac_protocol::fill::FillDecoder;
 
-use super::noise::{BusNoise, PulseFault};
+use super::noise::PulseFault;
 use super::{Cable, DRIVER_CYCLES, advance, now};
 
 const PLACES: SpiPlaces = SpiPlaces::SR8730;
@@ -44,14 +43,13 @@ impl PinBytes {
 #[derive(Clone, Debug)]
 pub struct SpiMaster {
     half_cycles: u64,
-    noise: Option<BusNoise>,
-    cable: Cable,
+    /// The cable.
+    pub cable: Cable,
     is_connected: bool,
     is_selected: bool,
     pins: PinBytes,
     /// What the robot drives, as of the last edge.
     output: bool,
-    said: Vec<u8>,
 }
 
 impl SpiMaster {
@@ -65,50 +63,18 @@ impl SpiMaster {
         machine.set_input(PLACES.input, Level::Low);
         Self {
             half_cycles: CYCLES_PER_S / 2 / u64::from(hz),
-            noise: None,
-            cable: Cable::default(),
+            cable: Cable::new(PLACES.attention),
             is_connected: true,
             is_selected: false,
             pins: PinBytes::default(),
             output: false,
-            said: Vec::new(),
         }
-    }
-
-    /// From now on the lines are damaged.
-    pub fn make_noisy(&mut self, seed: u64, rates: FaultRates) {
-        self.noise = Some(BusNoise::new(seed, rates));
-    }
-
-    /// From now on they are not.
-    pub fn make_quiet(&mut self) {
-        self.noise = None;
-    }
-
-    /// The cable is out between these cycles.
-    pub const fn cut(&mut self, from: u64, until: u64) {
-        self.cable.out = (from, until);
-    }
-
-    /// What the robot has said since the last call, as its pins had it.
-    pub fn take_said(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.said)
-    }
-
-    /// Whether the robot says that it has something to say.
-    #[must_use]
-    pub fn is_called(&self, robot: &EmulatedRobot) -> bool {
-        !self.cable.is_out(now(robot)) && robot.machine().level(PLACES.attention).is_high()
-    }
-
-    fn bit(&mut self, level: bool) -> bool {
-        self.noise.as_mut().map_or(level, |noise| noise.bit(level))
     }
 
     /// When the clock rises and falls for a bit that begins at this cycle.
     fn pulses(&mut self, begin: u64) -> Vec<(u64, u64)> {
         let half = self.half_cycles;
-        match self.noise.as_mut().map_or(PulseFault::None, BusNoise::pulse) {
+        match self.cable.pulse() {
             PulseFault::None => vec![(begin, begin + half)],
             PulseFault::Lost => Vec::new(),
             PulseFault::Doubled => vec![(begin, begin + half / 3), (begin + 2 * half / 3, begin + half)],
@@ -168,7 +134,7 @@ impl SpiWires<'_> {
         let half = self.master.half_cycles;
         self.follow_cable(begin);
         let is_connected = self.master.is_connected;
-        let level = self.master.bit(out);
+        let level = self.master.cable.bit(out);
         self.put(begin, PLACES.input, level);
         let pulses = self.master.pulses(begin);
         for (rise, fall) in &pulses {
@@ -189,12 +155,12 @@ impl SpiWires<'_> {
             }
         }
         self.master.output = said_at(u64::MAX);
-        self.master.bit(read)
+        self.master.cable.bit(read)
     }
 
     fn note(&mut self, levels: (bool, bool)) {
         if let Some((heard, said)) = self.master.pins.clock(levels) {
-            self.master.said.extend(said);
+            self.master.cable.say(said);
             self.robot.carried_by_bus(heard, said);
         }
     }

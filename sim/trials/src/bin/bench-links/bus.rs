@@ -3,7 +3,7 @@
 use pic32::board::{CYCLES_PER_S, EmulatedRobot};
 use robot_link::{ClockedEnd, I2cHost, SpiHost};
 use rvac_channel::FaultRates;
-use trials::buses::{I2cMaster, I2cWires, SpiMaster, SpiWires};
+use trials::buses::{Cable, I2cMaster, I2cWires, SpiMaster, SpiWires};
 
 use crate::wire::LinkKind;
 
@@ -48,10 +48,7 @@ impl ClockedBus {
 
     /// The cycle at which the host has to do something.
     pub(crate) fn due(&self, robot: &EmulatedRobot) -> u64 {
-        let is_called = match &self.ends {
-            Ends::Spi(_, master) => master.is_called(robot),
-            Ends::I2c(_, master) => master.is_called(robot),
-        };
+        let is_called = self.cable().is_called(robot);
         if is_called {
             self.due.min(robot.machine().cycle())
         } else {
@@ -64,14 +61,14 @@ impl ClockedBus {
         let rest_us = match &mut self.ends {
             Ends::Spi(end, master) => {
                 let Ok(()) = end.turn(&mut SpiWires { robot, master }, heard);
-                if master.is_called(robot) {
+                if master.cable.is_called(robot) {
                     end.called();
                 }
                 end.rest_us()
             }
             Ends::I2c(end, master) => match end.turn(&mut I2cWires { robot, master }, heard) {
                 Ok(()) => {
-                    if master.is_called(robot) {
+                    if master.cable.is_called(robot) {
                         end.called();
                     }
                     end.rest_us()
@@ -87,33 +84,35 @@ impl ClockedBus {
 
     /// What the robot has said since the last call.
     pub(crate) fn take_said(&mut self) -> Vec<u8> {
-        match &mut self.ends {
-            Ends::Spi(_, master) => master.take_said(),
-            Ends::I2c(_, master) => master.take_said(),
-        }
+        self.cable_mut().take_said()
     }
 
     /// From now on it is damaged.
     pub(crate) fn make_noisy(&mut self, seed: u64, rates: FaultRates) {
-        match &mut self.ends {
-            Ends::Spi(_, master) => master.make_noisy(seed, rates),
-            Ends::I2c(_, master) => master.make_noisy(seed, rates),
-        }
+        self.cable_mut().make_noisy(seed, rates);
     }
 
     /// From now on it is not.
     pub(crate) fn make_quiet(&mut self) {
-        match &mut self.ends {
-            Ends::Spi(_, master) => master.make_quiet(),
-            Ends::I2c(_, master) => master.make_quiet(),
-        }
+        self.cable_mut().make_quiet();
     }
 
     /// The cable is out between these cycles.
     pub(crate) fn cut(&mut self, from: u64, until: u64) {
+        self.cable_mut().cut(from, until);
+    }
+
+    const fn cable(&self) -> &Cable {
+        match &self.ends {
+            Ends::Spi(_, master) => &master.cable,
+            Ends::I2c(_, master) => &master.cable,
+        }
+    }
+
+    const fn cable_mut(&mut self) -> &mut Cable {
         match &mut self.ends {
-            Ends::Spi(_, master) => master.cut(from, until),
-            Ends::I2c(_, master) => master.cut(from, until),
+            Ends::Spi(_, master) => &mut master.cable,
+            Ends::I2c(_, master) => &mut master.cable,
         }
     }
 }
