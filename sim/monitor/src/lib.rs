@@ -120,16 +120,20 @@ impl Monitor {
             return;
         }
         let broken = told | verdict::broken(now_ms, &self.permission, &self.standing, drives);
-        for rule in Rule::ALL {
-            let bit = 1 << rule as u32;
-            if broken & bit != 0 && self.broken & bit == 0 {
-                self.count += 1;
-                if self.kept.len() < KEPT_MAX {
-                    self.kept.push(Violation::new(rule, now_ms, pins, drives));
-                }
+        let begun = broken & !self.broken;
+        self.broken = broken;
+        if begun == 0 {
+            return;
+        }
+        for rule in Rule::ALL
+            .into_iter()
+            .filter(|rule| begun & 1 << *rule as u32 != 0)
+        {
+            self.count += 1;
+            if self.kept.len() < KEPT_MAX {
+                self.kept.push(Violation::new(rule, now_ms, pins, drives));
             }
         }
-        self.broken = broken;
     }
 
     fn update_loads(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
