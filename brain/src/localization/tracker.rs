@@ -336,9 +336,8 @@ impl Tracker {
             self.confidence.take(score);
         }
         let verdict = self.confidence.verdict();
-        if estimate.sigma_m > TRACKING.lost_sigma_m {
-            self.lose_by_drift(estimate.pose);
-        } else if verdict == Verdict::Wrong {
+        // A vague position is not a wrong one: the particles hold the true one still, and the robot takes a fix at walls.
+        if verdict == Verdict::Wrong {
             self.doubt(map, estimate.pose);
         } else {
             // The doubt is over, so a search that it started is obsolete.

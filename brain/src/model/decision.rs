@@ -106,6 +106,8 @@ named_enum! {
         EscapeWiggle => "escape-wiggle",
         /// Drives about until beacons tell its heading.
         FindHeading => "find-heading",
+        /// Has followed walls that tell its position.
+        FixTaken => "fix-taken",
         /// Follows a wall.
         FollowWall => "follow-wall",
         /// Forgets the obstructions of this job.
@@ -156,6 +158,8 @@ named_enum! {
         StateStarting => "state-starting",
         /// Enters the state `stuck`.
         StateStuck => "state-stuck",
+        /// Goes to walls that tell its position.
+        TakeFix => "take-fix",
         /// Takes the gyro into the estimate of the pose again.
         TakeUpGyro => "take-up-gyro",
         /// Turns on the spot.

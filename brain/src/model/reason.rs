@@ -167,6 +167,8 @@ named_enum! {
         DockUnknown => "dock-unknown",
         /// The robot does not know where it is in the map.
         PlaceUnknown => "place-unknown",
+        /// It knows its position too vaguely for lanes.
+        PlaceVague => "place-vague",
         /// No way is left to where it wants to go.
         WayBlocked => "way-blocked",
         /// The lease of the person who drives ended.

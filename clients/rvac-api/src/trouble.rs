@@ -160,6 +160,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("job-runs", None),
     ("recharging", None),
     ("dock-unknown", Some(Trouble::Dock)),
+    ("place-vague", None),
     ("place-unknown", Some(Trouble::Place)),
     ("way-blocked", Some(Trouble::Route)),
     ("no-map", None),

@@ -82,6 +82,8 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::TakeUpGyro => "Uses its gyro again".to_owned(),
         DecisionKind::FindHeading => "Drives about to find its heading".to_owned(),
         DecisionKind::HeadingFound => format!("Found its heading after {value:.0} m"),
+        DecisionKind::TakeFix => "Drives to walls, to know its position better".to_owned(),
+        DecisionKind::FixTaken => "Went on, with its position known better".to_owned(),
         DecisionKind::LeaveWall => "Left the wall".to_owned(),
         DecisionKind::Withdraw => "Undid the last part of the map".to_owned(),
         DecisionKind::Spiral => "Began a spiral".to_owned(),

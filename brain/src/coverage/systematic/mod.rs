@@ -23,6 +23,7 @@ mod parameters;
 mod passed;
 mod plan_evaluation;
 mod plan_progress;
+mod position_fix;
 mod recent_track;
 mod relocalization;
 mod share;
@@ -58,6 +59,7 @@ use parameters::{SQUEEZE, SYSTEMATIC};
 use passed::{CellWindow, Passed};
 use plan_evaluation::MadePlan;
 use plan_progress::{PlanInputs, PlanProgress, settings};
+use position_fix::{FixStep, PositionFix};
 use relocalization::{RelocalizationLap, RelocalizationStep};
 use share::{PassedFloor, Shares};
 use squeeze::Squeeze;
@@ -107,6 +109,7 @@ pub(crate) struct Systematic {
     gain: Gain,
     way_out: WayOut,
     heading_search: HeadingSearch,
+    position_fix: PositionFix,
 }
 
 impl Task for Systematic {
@@ -122,6 +125,9 @@ impl Task for Systematic {
         }
         self.plan_on(situation);
         if let Some(plan) = self.relocalize(situation, context) {
+            return plan;
+        }
+        if let Some(plan) = self.take_fix(situation, context) {
             return plan;
         }
         if let Some(plan) = self.lap(situation, context) {
@@ -161,6 +167,7 @@ impl Task for Systematic {
         self.plan_progress = None;
         self.relocalization.interrupted();
         self.heading_search.interrupted();
+        self.position_fix.interrupted();
         if let Some(escape_bounce) = &mut self.escape_bounce {
             escape_bounce.interrupted();
         }
@@ -245,6 +252,22 @@ impl Systematic {
                 None
             }
             RelocalizationStep::Driving(plan) => Some(plan),
+        }
+    }
+
+    /// Goes to walls when the position has become vague.
+    fn take_fix(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
+        if !situation.is_tracked || self.evasion.is_some() {
+            return None;
+        }
+        let avoid = self.assignment.avoided();
+        match self.position_fix.step(avoid, situation, context) {
+            FixStep::Idle => None,
+            FixStep::Over => {
+                self.interrupted();
+                None
+            }
+            FixStep::Driving(plan) => Some(plan),
         }
     }
 

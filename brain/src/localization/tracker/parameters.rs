@@ -13,8 +13,6 @@ pub(super) struct TrackingParameters {
     /// A wrong scale has the same effect in all weighings of a turn. Particles draw independent errors, so theirs must be larger
     /// by this factor.
     pub(super) correlated_scale: f64,
-    /// A robot with a larger spread than this is lost, metres.
-    pub(super) lost_sigma_m: f64,
     /// A lost robot is found when this share of its particles is in one narrow cluster.
     pub(super) found_share: f64,
     /// Standard deviation of a narrow cluster, metres.
@@ -36,7 +34,6 @@ pub(super) const TRACKING: TrackingParameters = TrackingParameters {
     weigh_m: 0.05,
     weigh_rad: 0.15,
     correlated_scale: 3.0,
-    lost_sigma_m: 0.8,
     found_share: 0.9,
     found_sigma_m: 0.2,
     carried: PoseSpread {

@@ -11,6 +11,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("job-runs", "A job runs or waits.", "Stop it first: the robot must be at rest."),
     entry("recharging", "It waits on the dock for charge, and then goes on.", ""),
     entry("dock-unknown", "Nobody knows where the dock is.", "Put it on its dock once."),
+    entry("place-vague", "It does not know its position well enough.", "Nothing needs to be done: it goes on once walls have told it."),
     entry("place-unknown", "It does not know where it is.", "Put it on its dock, or let it clean: it looks for places that it knows."),
     entry("way-blocked", "Every route to the destination is blocked.", "Clear the way."),
     entry("no-map", "It has no map of the home yet.", "Let it clean once."),

@@ -21,6 +21,8 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("take-up-gyro", "Kasutab jälle güroskoopi"),
     ("find-heading", "Sõidab ringi, et oma suund leida"),
     ("heading-found", "Leidis oma suuna, sõidetud {} m"),
+    ("take-fix", "Sõidab seinte äärde, et oma asukohta täpsustada"),
+    ("fix-taken", "Läks edasi, asukoht täpsustatud"),
     ("leave-wall", "Lahkus seina äärest"),
     ("withdraw", "Võttis oma kaardi viimase osa tagasi"),
     ("spiral", "Alustas spiraali"),

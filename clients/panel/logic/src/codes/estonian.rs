@@ -24,6 +24,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("job-runs", "Töö käib või ootab.", "Peata see enne: see on võimalik ainult seisva robotiga."),
     entry("recharging", "Robot laeb dokis akut ja jätkab siis.", ""),
     entry("dock-unknown", "Doki asukoht ei ole teada.", "Pane robot korraks dokki."),
+    entry("place-vague", "Robot ei tea oma asukohta piisavalt täpselt.", "Midagi ei ole vaja teha: ta jätkab, kui on seinte järgi asukoha täpsustanud."),
     entry("place-unknown", "Robot ei tea, kus ta on.", "Pane ta dokki või lase koristada: ta otsib tuttavaid kohti."),
     entry("way-blocked", "Robot ei pääse sinna, kuhu ta tahab.", "Tee tee vabaks."),
     entry("no-map", "Robotil ei ole veel kodu kaarti.", "Lase tal korra koristada."),
