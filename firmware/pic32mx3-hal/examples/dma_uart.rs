@@ -1,18 +1,16 @@
-//! What comes in on UART 1 (RF2) goes out again (RF3), 115200 baud, both by DMA: the program looks at its ring once a millisecond. When
+//! What comes in on UART 1 (RF2) goes out again (RF3), 115200 baud, both by DMA: the program looks at its ring each time that what it sent has left. When
 //! the line was disturbed or the ring overrun, a `?` goes out.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
 mod board;
 
-use embedded_hal::delay::DelayNs;
-use pic32mx3_hal::core_timer::Delay;
 use pic32mx3_hal::dma::{FirstOf, StaticBuffer};
 use pic32mx3_hal::gpio::Level;
 use pic32mx3_hal::{Peripherals, entry, reset};
 
 const BAUD: u32 = 115_200;
-static RING: StaticBuffer<u8, 128> = StaticBuffer::new([0; 128]);
-static ANSWER: StaticBuffer<u8, 32> = StaticBuffer::new([0; 32]);
+static RING: StaticBuffer<u8, 256> = StaticBuffer::new([0; 256]);
+static ANSWER: StaticBuffer<u8, 64> = StaticBuffer::new([0; 64]);
 
 fn main() -> ! {
     let Some(peripherals) = Peripherals::take() else {
@@ -35,9 +33,7 @@ fn main() -> ! {
     };
     let mut channel = channels.channel0;
     let mut answer = answer;
-    let mut delay = Delay::new(clocks);
     loop {
-        delay.delay_ms(1);
         let count = ring.read(answer).unwrap_or_else(|_| {
             answer.fill(b'?');
             1

@@ -7,7 +7,7 @@ use crate::uart::{Receiver, Uart};
 use core::fmt;
 use core::sync::atomic::{Ordering, compiler_fence};
 
-/// OERR, FERR, PERR.
+/// OERR.
 const OVERRUN: u32 = 1 << 1;
 
 /// Why bytes are missing or doubtful.
@@ -65,14 +65,15 @@ impl<const NUMBER: u8, const UART: u8, P, B: WriteBuffer<Element = u8>> RingRece
     /// # Errors
     /// [`RingError`]
     pub fn read(&mut self, bytes: &mut [u8]) -> Result<usize, RingError> {
+        let length = self.lent.len();
+        let (is_round, written) = Self::position();
+        // After the position: bytes that come with an error are not taken before it is told.
         if Uart::<UART>::ERROR.is_pending() {
             // Without that the receiver stops after an overrun.
             uart_status(UART).clear(OVERRUN);
             Uart::<UART>::ERROR.clear();
             return Err(RingError::Line);
         }
-        let length = self.lent.len();
-        let (is_round, written) = Self::position();
         // The channel's bytes are read after its pointer.
         compiler_fence(Ordering::SeqCst);
         let waiting = match (is_round, written.checked_sub(self.next)) {
