@@ -5,9 +5,9 @@
 mod board;
 mod text;
 
-use core::fmt::Write as _;
+use core::fmt::Write;
 use core::sync::atomic::AtomicU32;
-use pic32mx3_hal::dma::{CrcSettings, StaticBuffer};
+use pic32mx3_hal::dma::{Channel, CrcSettings, CrcUnit, StaticBuffer};
 use pic32mx3_hal::gpio::Level;
 use pic32mx3_hal::{Peripherals, cpu, entry, reset};
 use text::Text;
@@ -31,6 +31,14 @@ const XMODEM: CrcSettings = CrcSettings {
     bits: 16,
     initial: 0,
 };
+
+/// The CRC of a message in two parts.
+fn sum_up<W: Write>(text: &mut W, channel: Channel<3>, mut unit: CrcUnit) -> Option<()> {
+    unit.begin(XMODEM).ok()?;
+    let fed = channel.feed_crc(unit, b"1234").ok()?.wait();
+    let fed = fed.channel.feed_crc(fed.driver, b"56789").ok()?.wait();
+    writeln!(text, "crc {:04x} {:?}", fed.driver.result(), fed.outcome).ok()
+}
 
 fn main() -> ! {
     let Some(peripherals) = Peripherals::take() else {
@@ -93,20 +101,9 @@ fn main() -> ! {
     )
     .ok();
 
-    let mut unit = channels.crc;
-    if unit.begin(XMODEM).is_err() {
+    if sum_up(&mut text, channels.channel3, channels.crc).is_none() {
         reset::software_reset();
     }
-    // In two parts.
-    let Ok(feeding) = channels.channel3.feed_crc(unit, b"1234") else {
-        reset::software_reset()
-    };
-    let fed = feeding.wait();
-    let Ok(feeding) = fed.channel.feed_crc(fed.driver, b"56789") else {
-        reset::software_reset()
-    };
-    let fed = feeding.wait();
-    writeln!(text, "crc {:04x} {:?}", fed.driver.result(), fed.outcome).ok();
     loop {
         cpu::sleep_while_zero(&NEVER);
     }

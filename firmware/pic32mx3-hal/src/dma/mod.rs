@@ -71,7 +71,7 @@ pub struct Dma(());
 /// What the controller consists of.
 #[derive(Debug)]
 #[non_exhaustive]
-pub struct Channels {
+pub struct DmaChannels {
     /// Channel 0.
     pub channel0: Channel<0>,
     /// Channel 1.
@@ -91,9 +91,9 @@ impl Dma {
 
     /// Turns it on.
     #[must_use]
-    pub fn start(self) -> Channels {
+    pub fn start(self) -> DmaChannels {
         DMACON.set(ON);
-        Channels {
+        DmaChannels {
             channel0: Channel::new(),
             channel1: Channel::new(),
             channel2: Channel::new(),
