@@ -1,4 +1,4 @@
-//! A channel copies, fills, and copies a text up to its end, while the program does something else; another one feeds the CRC unit. What came of it goes to
+//! A channel copies, fills, is stopped midway, and copies a text up to its end, while the program does something else; another one feeds the CRC unit. What came of it goes to
 //! UART 1 (RF3, 115200 baud).
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
@@ -31,6 +31,27 @@ const XMODEM: CrcSettings = CrcSettings {
     bits: 16,
     initial: 0,
 };
+
+/// A copy that is stopped: what was moved is there, and the rest is as it was.
+fn stop_midway<W: Write>(
+    text: &mut W,
+    channel: Channel<0>,
+    buffer: &'static mut [u32; 64],
+) -> Option<Channel<0>> {
+    buffer.fill(0);
+    let copying = channel.copy(&TABLE, buffer).ok()?;
+    while copying.progress() < 3 {}
+    let stopped = copying.stop();
+    let moved = stopped.moved;
+    let is_right = stopped
+        .buffer
+        .iter()
+        .zip(&TABLE)
+        .enumerate()
+        .all(|(index, (copy, word))| *copy == if index < moved { *word } else { 0 });
+    writeln!(text, "stopped midway: {}, {is_right}", (3..64).contains(&moved)).ok()?;
+    Some(stopped.channel)
+}
 
 /// The CRC of a message in two parts.
 fn sum_up<W: Write>(text: &mut W, channel: Channel<3>, mut unit: CrcUnit) -> Option<()> {
@@ -82,10 +103,10 @@ fn main() -> ! {
     let full = filled.buffer.iter().all(|word| *word == 0xDEAD_BEEF);
     writeln!(text, "filled {} words: {full}", filled.moved).ok();
 
-    let Ok(copying) = filled
-        .channel
-        .copy_until(b"up to its end\0and no further", line, 0)
-    else {
+    let Some(channel) = stop_midway(&mut text, filled.channel, filled.buffer) else {
+        reset::software_reset()
+    };
+    let Ok(copying) = channel.copy_until(b"up to its end\0and no further", line, 0) else {
         reset::software_reset()
     };
     let copied = copying.wait();

@@ -91,7 +91,7 @@ impl<const NUMBER: u8, W: Word + Element, P> SpiMaster<NUMBER, W, P> {
         for source in [Spi::<NUMBER>::SENT, Spi::<NUMBER>::RECEIVED, Spi::<NUMBER>::FAULT] {
             source.disable();
         }
-        while !self.is_idle() {}
+        while !self.has_drained() {}
         let _ = spi_buffer(NUMBER).read();
         spi_status(NUMBER).clear(OVERRUN);
         for source in [Spi::<NUMBER>::SENT, Spi::<NUMBER>::RECEIVED, Spi::<NUMBER>::FAULT] {
@@ -141,7 +141,8 @@ where
         let said = Channel::<RECEIVING>::outcome().and(Channel::<SENDING>::outcome());
         Channel::<SENDING>::halt();
         // At most two words are under way; a channel takes them as they come.
-        while !self.master.is_idle() || Channel::<RECEIVING>::is_running() && self.master.has_received() {}
+        while !self.master.has_drained() || Channel::<RECEIVING>::is_running() && self.master.has_received() {
+        }
         let pointers = Channel::<RECEIVING>::halt();
         let is_complete = Channel::<RECEIVING>::is_block_done();
         Channel::<RECEIVING>::acknowledge();

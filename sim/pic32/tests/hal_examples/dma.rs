@@ -12,7 +12,7 @@ fn memory_is_copied_filled_and_summed_up() {
     let Some(image) = image("dma_memory") else { return };
     let mut machine = Machine::new(&image);
     run(&mut machine, 30 * MS);
-    let expected = "copied 64 words, same: true, waited: true\nfilled 64 words: true\n\
+    let expected = "copied 64 words, same: true, waited: true\nfilled 64 words: true\nstopped midway: true, true\n\
                     up to its end and ..................\ncrc 31c3 Ok(())\n";
     assert_eq!(text(&mut machine, Uart::One), expected);
     assert_clean(&machine);
