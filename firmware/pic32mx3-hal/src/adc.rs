@@ -14,6 +14,8 @@ const CLRASAM: u32 = 1 << 4;
 const ASAM: u32 = 1 << 2;
 /// The end of sampling starts the conversion.
 const AUTO_CONVERT: u32 = 7 << 5;
+/// Timer 3 ends sampling.
+const TIMER_CONVERT: u32 = 2 << 5;
 const SCAN: u32 = 1 << 10;
 const SMPI_SHIFT: u32 = 2;
 const CHANNEL_SHIFT: u32 = 16;
@@ -137,6 +139,27 @@ impl Scanner {
         AD1CON2.write(0);
         self.go();
         true
+    }
+
+    /// Before sample after sample of one input is converted, each with a request of its own.
+    pub(crate) fn prepare_samples(&mut self, input: u8, by_timer: bool) {
+        let trigger = if by_timer { TIMER_CONVERT } else { AUTO_CONVERT };
+        AD1CON1.write(trigger);
+        AD1CHS.write(u32::from(input & 15) << CHANNEL_SHIFT);
+        AD1CON2.write(0);
+        Source::Adc.clear();
+    }
+
+    pub(crate) fn begin_samples(&mut self) {
+        AD1CON1.set(ON);
+        AD1CON1.set(ASAM);
+    }
+
+    /// As [`Adc::start`] leaves it.
+    pub(crate) fn end_samples(&mut self) {
+        AD1CON1.write(0);
+        Source::Adc.clear();
+        AD1CON1.write(ON | AUTO_CONVERT | CLRASAM);
     }
 
     fn go(&mut self) {

@@ -5,6 +5,7 @@
 //!
 //! `unverified`: how much a step of the calibration is (here one clock a minute), and that resets leave the calendar alone.
 
+use crate::dma;
 use crate::interrupt::Source;
 use crate::register::map::{ALRMDATE, ALRMTIME, RTCALRM, RTCCON, RTCDATE, RTCTIME};
 use crate::reset::with_system_unlocked;
@@ -258,7 +259,8 @@ impl Calendar {
 }
 
 fn allow_writing() {
-    with_system_unlocked(|| RTCCON.set(WRITE_ENABLE));
+    // Another access between the two keys would spoil them.
+    dma::suspended(|| with_system_unlocked(|| RTCCON.set(WRITE_ENABLE)));
 }
 
 /// Waits until its clock runs or stands.
@@ -286,6 +288,8 @@ mod tests {
     /// The bits of all six registers, on a calendar of memory, whose clock bit stands where it was put.
     #[test]
     fn the_calendar_sets_its_bits() {
+        // DMA's tests use the same registers.
+        let _alone = crate::dma::tests::alone();
         let mut calendar = Calendar::new();
         RTCCON.write(0);
         assert_eq!(calendar.set(MOMENT), Err(SetError::NoClock), "RTCCLKON stays 0");

@@ -67,7 +67,8 @@ pub fn pll_is_locked() -> bool {
     OSCCON.has(PLL_LOCKED)
 }
 
-/// Forgets a failure. The chip stays on its internal oscillator; a reset starts with the crystal again.
+/// Forgets a failure. The chip stays on its internal oscillator; a reset starts with the crystal again. While DMA moves something,
+/// call it within [`crate::dma::suspended`].
 pub fn forget_failure() {
     with_system_unlocked(|| OSCCON.clear(CLOCK_FAILED));
 }

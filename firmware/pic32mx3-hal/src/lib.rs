@@ -42,7 +42,8 @@
 //! | time | [`core_timer`], [`timer`], [`calendar`] | 5, 10, 17 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
 //! | ADC, comparators | [`adc`], [`comparator`] | 13, 17 |
-//! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
+//! | UART, SPI, I2C, parallel port | [`uart`], [`spi`], [`i2c`], [`parallel_port`] | 14, 15 |
+//! | memory and peripherals without the processor | [`dma`] | 17 |
 //! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
 //! | what stays | [`persistent`], [`flash`] | 16 |
 //! | sleeping, sections without interrupts | [`cpu`], [`power`] | 5 |
@@ -70,6 +71,7 @@ pub mod comparator;
 pub mod configuration;
 pub mod core_timer;
 pub mod cpu;
+pub mod dma;
 pub mod exception;
 pub mod external;
 pub mod flash;
@@ -78,6 +80,7 @@ pub mod i2c;
 pub mod interrupt;
 pub mod memory;
 pub mod oscillator;
+pub mod parallel_port;
 mod peripherals;
 pub mod persistent;
 pub mod power;

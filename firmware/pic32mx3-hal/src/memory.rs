@@ -49,6 +49,8 @@ pub fn flash_words(offset: u32, count: u32) -> impl Iterator<Item = u32> {
 /// afterwards. Interrupts are off for about 30 cycles, so that no other code reads it meanwhile. `None` outside of RAM or when
 /// unaligned.
 ///
+/// While a DMA channel uses RAM, call it within [`crate::dma::suspended`]: the channel would see the patterns, or lose what it wrote.
+///
 /// Called for each word in turn, in slices; a word of the stack or of a variable may be tested at any time.
 #[must_use]
 pub fn test_ram_word(offset: u32) -> Option<bool> {

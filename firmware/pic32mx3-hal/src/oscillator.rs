@@ -10,8 +10,9 @@
 use crate::clock::{Clocks, Running, running};
 use crate::configuration::{Configuration, OscillatorSource};
 use crate::core_timer;
+use crate::dma;
 use crate::register::map::{CHECON, OSCCON};
-use crate::reset::with_system_unlocked;
+use crate::reset;
 
 const SWITCH: u32 = 1;
 const SECONDARY_ENABLE: u32 = 1 << 1;
@@ -92,6 +93,11 @@ impl Oscillators {
     }
 }
 
+/// Another access between the two keys would spoil them.
+fn with_system_unlocked<R>(function: impl FnOnce() -> R) -> R {
+    dma::suspended(|| reset::with_system_unlocked(function))
+}
+
 /// One change of the source, with the fields of the PLL and of the peripherals' divider.
 fn change(source: OscillatorSource, choices: u32, patience_counts: u32) -> Result<(), SwitchError> {
     let wanted = choices & !(7 << WANTED_SHIFT) | (source as u32) << WANTED_SHIFT;
@@ -161,6 +167,8 @@ mod tests {
     /// Memory keeps OSWEN, as a chip whose crystal is missing does.
     #[test]
     fn a_source_that_does_not_come_is_named_and_given_up() {
+        // DMA's tests use the same registers.
+        let _alone = crate::dma::tests::alone();
         OSCCON.write(1 << 1);
         let answer = change(OscillatorSource::Secondary, 5 << 16, 100);
         assert_eq!(answer, Err(SwitchError::NotReady(OscillatorSource::Secondary)));

@@ -7,10 +7,12 @@ use crate::change_notice::ChangeNotice;
 use crate::comparator::{Comparator, VoltageReference};
 use crate::core_timer::CoreTimer;
 use crate::cpu;
+use crate::dma::Dma;
 use crate::flash::DataFlash;
 use crate::gpio::Pins;
 use crate::i2c::I2c;
 use crate::oscillator::Oscillators;
+use crate::parallel_port::ParallelPort;
 use crate::pwm::OutputCompare;
 use crate::spi::Spi;
 use crate::timer::Timer;
@@ -79,6 +81,10 @@ pub struct Peripherals {
     pub i2c1: I2c<1>,
     /// I2C 2.
     pub i2c2: I2c<2>,
+    /// The parallel port.
+    pub parallel_port: ParallelPort,
+    /// DMA.
+    pub dma: Dma,
     /// Change notice.
     pub change_notice: ChangeNotice,
     /// The watchdog.
@@ -131,6 +137,8 @@ impl Peripherals {
             spi2: Spi::new(),
             i2c1: I2c::new(),
             i2c2: I2c::new(),
+            parallel_port: ParallelPort::new(),
+            dma: Dma::new(),
             change_notice: ChangeNotice::new(),
             watchdog: Watchdog::new(),
             oscillators: Oscillators::new(),

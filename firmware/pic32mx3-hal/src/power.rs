@@ -8,6 +8,7 @@
 //! For Idle see [`crate::cpu::sleep_while_zero`].
 
 use crate::cpu;
+use crate::dma;
 use crate::register::map::{OSCCON, RCON};
 use crate::reset::with_system_unlocked;
 use core::sync::atomic::AtomicU32;
@@ -34,9 +35,10 @@ pub enum Rest {
 /// No wake-up is lost, as with [`crate::cpu::sleep_while_zero`], whose rules hold here, too. Between the two changes of the mode a
 /// handler that idles would sleep.
 pub fn sleep_while_zero(word: &AtomicU32) {
-    with_system_unlocked(|| OSCCON.set(SLEEP_ENABLE));
+    // Another access between the two keys would spoil them.
+    dma::suspended(|| with_system_unlocked(|| OSCCON.set(SLEEP_ENABLE)));
     cpu::sleep_while_zero(word);
-    with_system_unlocked(|| OSCCON.clear(SLEEP_ENABLE));
+    dma::suspended(|| with_system_unlocked(|| OSCCON.clear(SLEEP_ENABLE)));
 }
 
 /// How deep the chip has slept since the last call; `None` when it has not.

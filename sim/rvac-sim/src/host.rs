@@ -7,7 +7,7 @@ use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Measured, Pose as TruePose};
 use rvac_api::{
     ComponentHealth, FloorsView, HomeView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules,
-    Status, Update,
+    Status, Topic, Update,
 };
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
@@ -53,7 +53,7 @@ pub struct Host {
     refusal: Option<String>,
 }
 
-const CLIENT: ClientId = ClientId(1);
+pub(crate) const CLIENT: ClientId = ClientId(1);
 
 /// Something that a daemon writes to its disk, in the order in which it does.
 #[derive(Clone, Debug)]
@@ -369,6 +369,34 @@ impl Host {
     #[must_use]
     pub fn log(&self) -> &[LogEntry] {
         self.log.as_deref().unwrap_or_default()
+    }
+
+    /// The lines of its log that a client reads who comes now.
+    pub fn read_log(&mut self, now_us: u64) -> Vec<LogEntry> {
+        let client = ClientId(u64::MAX);
+        let request = Request {
+            id: None,
+            body: RequestBody::Watch {
+                topics: vec![Topic::Log],
+            },
+        };
+        let age_us = now_us - self.born_us;
+        let mut read = Vec::new();
+        for input in [
+            Input::ClientConnected(client),
+            Input::Client { client, request },
+            Input::ClientGone(client),
+        ] {
+            self.core.handle(age_us, input, &mut self.outputs);
+            self.pending.append(&mut self.outputs.link);
+            let deliveries = self.outputs.deliveries.drain(..);
+            read.extend(deliveries.filter_map(|delivery| match delivery.update {
+                Update::Log(entry) => Some(entry),
+                _ => None,
+            }));
+        }
+        self.outputs.clear();
+        read
     }
 
     /// From now on what its core records is kept; a core records when its settings say so.

@@ -7,6 +7,7 @@ use home::{Beacons, BoardGyro, Home, Pose};
 
 use crate::carpet_quality;
 use crate::figures::{Belief, Collector, MeasuredFloor, Sigma};
+use crate::host::CLIENT;
 use crate::known_map::known_map;
 use crate::line_faults::{HostClock, Tamper};
 use crate::linux_board::LinuxBoard;
@@ -368,6 +369,15 @@ impl Household {
             host.ask(now_us, body);
             deliver(&mut self.robot, self.tamper.as_mut(), host.pending());
         }
+    }
+
+    /// Sends a request to the host, and gives why it is refused, if it is.
+    pub(crate) fn ask_and_hear(&mut self, body: rvac_api::RequestBody) -> Option<String> {
+        let now_us = self.now_us();
+        let host = self.host.as_mut()?;
+        let refused = host.ask_as(now_us, CLIENT, body);
+        deliver(&mut self.robot, self.tamper.as_mut(), host.pending());
+        refused
     }
 
     fn all_figures(&self) -> Figures {

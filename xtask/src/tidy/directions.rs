@@ -77,10 +77,12 @@ const SIMULATED: &[&str] = &[
     "cordlib",
     "vthal-core",
     "brain",
+    "mixer",
     "rvac-api",
     "rvac-channel",
     "rvac-protocol",
     "rvac-units",
+    "system-zone",
 ];
 /// Whole systems in the simulator, and what came of them as numbers.
 const SCENARIOS: &[&str] = &[

@@ -138,6 +138,21 @@ pub(crate) const fn adc_buffer(index: u8) -> Register {
     Register::at(0xBF80_9070).plus(0x10 * (index as u32 & 15))
 }
 
+/// Parallel port (peripherals, 7): control, mode, address, output, input, pins, status.
+pub(crate) const PMCON: Register = Register::at(0xBF80_7000);
+/// (peripherals, 7)
+pub(crate) const PMMODE: Register = Register::at(0xBF80_7010);
+/// (peripherals, 7)
+pub(crate) const PMADDR: Register = Register::at(0xBF80_7020);
+/// (peripherals, 7)
+pub(crate) const PMDOUT: Register = Register::at(0xBF80_7030);
+/// (peripherals, 7)
+pub(crate) const PMDIN: Register = Register::at(0xBF80_7040);
+/// (peripherals, 7)
+pub(crate) const PMAEN: Register = Register::at(0xBF80_7050);
+/// (peripherals, 7)
+pub(crate) const PMSTAT: Register = Register::at(0xBF80_7060);
+
 /// Reference of the comparators (peripherals, 6).
 pub(crate) const CVRCON: Register = Register::at(0xBF80_9800);
 /// CMxCON (peripherals, 5).
@@ -179,6 +194,59 @@ pub(crate) const fn interrupt_priorities(index: u32) -> Register {
     Register::at(0xBF88_1090).plus(0x10 * index)
 }
 
+/// DMA (peripherals, 3).
+pub(crate) const DMACON: Register = Register::at(0xBF88_3000);
+/// (peripherals, 3)
+pub(crate) const DCRCCON: Register = Register::at(0xBF88_3030);
+/// (peripherals, 3)
+pub(crate) const DCRCDATA: Register = Register::at(0xBF88_3040);
+/// (peripherals, 3)
+pub(crate) const DCRCXOR: Register = Register::at(0xBF88_3050);
+/// DCHxCON (peripherals, 3).
+pub(crate) const fn dma_control(channel: u8) -> Register {
+    Register::at(0xBF88_3060).plus(0xC0 * channel as u32)
+}
+/// DCHxECON (peripherals, 3).
+pub(crate) const fn dma_event(channel: u8) -> Register {
+    dma_control(channel).plus(0x10)
+}
+/// DCHxINT (peripherals, 3).
+pub(crate) const fn dma_interrupt(channel: u8) -> Register {
+    dma_control(channel).plus(0x20)
+}
+/// DCHxSSA (peripherals, 3).
+pub(crate) const fn dma_source(channel: u8) -> Register {
+    dma_control(channel).plus(0x30)
+}
+/// DCHxDSA (peripherals, 3).
+pub(crate) const fn dma_destination(channel: u8) -> Register {
+    dma_control(channel).plus(0x40)
+}
+/// DCHxSSIZ (peripherals, 3).
+pub(crate) const fn dma_source_size(channel: u8) -> Register {
+    dma_control(channel).plus(0x50)
+}
+/// DCHxDSIZ (peripherals, 3).
+pub(crate) const fn dma_destination_size(channel: u8) -> Register {
+    dma_control(channel).plus(0x60)
+}
+/// DCHxSPTR (peripherals, 3).
+pub(crate) const fn dma_source_pointer(channel: u8) -> Register {
+    dma_control(channel).plus(0x70)
+}
+/// DCHxDPTR (peripherals, 3).
+pub(crate) const fn dma_destination_pointer(channel: u8) -> Register {
+    dma_control(channel).plus(0x80)
+}
+/// DCHxCSIZ (peripherals, 3).
+pub(crate) const fn dma_cell_size(channel: u8) -> Register {
+    dma_control(channel).plus(0x90)
+}
+/// DCHxDAT (peripherals, 3).
+pub(crate) const fn dma_pattern(channel: u8) -> Register {
+    dma_control(channel).plus(0xB0)
+}
+
 /// Flash wait states and prefetch (7).
 pub(crate) const CHECON: Register = Register::at(0xBF88_4000);
 /// RAM size (7).
@@ -213,9 +281,9 @@ pub(crate) const CNPUE: Register = Register::at(0xBF88_61E0);
 #[cfg(test)]
 mod tests {
     use super::{
-        adc_buffer, capture_buffer, comparator_control, compare_secondary, i2c_receive, i2c_transmit,
-        interrupt_enables, interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider,
-        timer_period, uart_baud,
+        PMSTAT, adc_buffer, capture_buffer, comparator_control, compare_secondary, dma_cell_size,
+        dma_control, dma_pattern, dma_source_pointer, i2c_receive, i2c_transmit, interrupt_enables,
+        interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider, timer_period, uart_baud,
     };
 
     /// The computed addresses are those of the printed tables (sections 5, 8, 10 to 14).
@@ -233,8 +301,13 @@ mod tests {
             (i2c_transmit(2), 0xBF80_5250),
             (uart_baud(2), 0xBF80_6240),
             (adc_buffer(15), 0xBF80_9160),
+            (PMSTAT, 0xBF80_7060),
             (interrupt_enables(1), 0xBF88_1070),
             (interrupt_priorities(11), 0xBF88_1140),
+            (dma_control(1), 0xBF88_3120),
+            (dma_source_pointer(0), 0xBF88_30D0),
+            (dma_cell_size(2), 0xBF88_3270),
+            (dma_pattern(3), 0xBF88_3350),
             (port_latch(6), 0xBF88_61A0),
             (port_open_drain(1), 0xBF88_6070),
         ];

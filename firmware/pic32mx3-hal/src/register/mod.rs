@@ -28,6 +28,11 @@ impl Register {
         Self(self.0 + bytes)
     }
 
+    /// Where the DMA controller finds it.
+    pub(crate) const fn physical_address(self) -> u32 {
+        self.0 & 0x1FFF_FFFF
+    }
+
     #[inline(always)]
     pub(crate) fn read(self) -> u32 {
         load(self.0)

@@ -1,6 +1,6 @@
 //! The master: `embedded_hal::spi::SpiBus`.
 
-use super::{BUSY, Spi, SpiError, Word, stop, try_receive, try_send};
+use super::{BUSY, RECEIVED, ROOM, Spi, SpiError, Word, stop, try_receive, try_send};
 use crate::register::map::spi_status;
 use core::marker::PhantomData;
 use embedded_hal::spi::{ErrorType, SpiBus};
@@ -36,6 +36,15 @@ impl<const NUMBER: u8, W: Word, P> SpiMaster<NUMBER, W, P> {
     #[must_use]
     pub fn is_idle(&self) -> bool {
         !spi_status(NUMBER).has(BUSY)
+    }
+
+    /// Whether nothing waits and nothing moves: between two words it may look idle.
+    pub(crate) fn has_drained(&self) -> bool {
+        spi_status(NUMBER).has(ROOM) && self.is_idle()
+    }
+
+    pub(crate) fn has_received(&self) -> bool {
+        spi_status(NUMBER).has(RECEIVED)
     }
 
     /// Stops it and gives the parts back.

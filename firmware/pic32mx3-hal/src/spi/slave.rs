@@ -79,6 +79,8 @@ mod tests {
     /// The slave's and the framed bits of SPIxCON, and what the status says, on SPI 2.
     #[test]
     fn a_slave_and_frames_set_their_bits() {
+        // DMA's tests use the same registers.
+        let _alone = crate::dma::tests::alone();
         let pins = Pins::new();
         let slave_pins = (
             pins.rg6.into_input(),

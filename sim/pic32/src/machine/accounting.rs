@@ -1,5 +1,6 @@
 //! Accounting of time: cycles by interrupt vector and priority level, interrupt latency, idle time, the stack.
 
+use super::Machine;
 use crate::peripheral::VECTORS;
 
 /// One interrupt vector.
@@ -138,5 +139,23 @@ impl Accounting {
     pub(super) fn forget_active(&mut self, cycle: u64) {
         self.charge(cycle);
         self.active.clear();
+    }
+}
+
+impl Machine {
+    /// Where the time went.
+    pub fn accounting(&self) -> &Accounting {
+        &self.accounting
+    }
+
+    /// Begins a new account; handlers that are active go on in it. The deepest stack is forgotten, too.
+    pub fn restart_accounting(&mut self) {
+        self.accounting.restart(self.cycle);
+        self.cpu.clear_deepest_stack();
+    }
+
+    /// The lowest value of the stack pointer on entering a function; nothing before the first.
+    pub fn deepest_stack(&self) -> Option<u32> {
+        self.cpu.deepest_stack()
     }
 }

@@ -213,8 +213,11 @@ impl Machine {
 
     /// Lets happen what is due, and what it asks of core and memories.
     fn settle(&mut self, surroundings: &mut dyn Surroundings) {
-        self.chip.serve(self.cycle, surroundings);
-        while let Some(order) = self.chip.take_order() {
+        loop {
+            self.chip.serve(self.cycle, surroundings);
+            let Some(order) = self.chip.take_order() else {
+                break;
+            };
             self.obey(order);
         }
         if let Some(request) = self.chip.take_request() {
@@ -242,6 +245,7 @@ impl Machine {
                 self.memory.set_ram_code(self.chip.ram_code());
             }
             Order::Flash(operation) => self.program(operation),
+            Order::Dma { cycle } => self.chip.move_by_dma(&mut self.memory, cycle),
         }
     }
 
@@ -468,22 +472,6 @@ impl Machine {
     /// How many exceptions there were that were no interrupts.
     pub fn exception_count(&self) -> u64 {
         self.exception_count
-    }
-
-    /// Where the time went.
-    pub fn accounting(&self) -> &Accounting {
-        &self.accounting
-    }
-
-    /// Begins a new account; handlers that are active go on in it. The deepest stack is forgotten, too.
-    pub fn restart_accounting(&mut self) {
-        self.accounting.restart(self.cycle);
-        self.cpu.clear_deepest_stack();
-    }
-
-    /// The lowest value of the stack pointer on entering a function; nothing before the first.
-    pub fn deepest_stack(&self) -> Option<u32> {
-        self.cpu.deepest_stack()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Interface of the pins to the outside.
 
 use super::Machine;
-use crate::peripheral::{CYCLES_PER_S, Sent};
+use crate::peripheral::{CYCLES_PER_S, DmaRequests, Sent};
 use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// One of the two UARTs.
@@ -53,6 +53,11 @@ impl Machine {
     /// The board has a crystal of 32.768 kHz on RC13 and RC14, which swings as soon as the program wants it.
     pub fn fit_watch_crystal(&mut self) {
         self.chip.fit_watch_crystal(self.cycle);
+    }
+
+    /// How requests that stay up start cells of DMA from now on: no source tells which one the chip does.
+    pub fn set_dma_requests(&mut self, requests: DmaRequests) {
+        self.chip.set_dma_requests(requests);
     }
 
     /// The outside will drive this pin from a cycle to come (a cycle of the past counts as now).

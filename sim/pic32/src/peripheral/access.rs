@@ -6,7 +6,7 @@ use super::ports::Field;
 use super::register::{Block, Register, Via};
 use super::system::SystemWrite;
 use super::timers::TimerWrite;
-use super::{AccessDirection, Chip, Misuse, Order, ResetSource, Slot, Unmodelled};
+use super::{AccessDirection, Chip, Misuse, Order, ResetSource, Slot, Unmodelled, parallel};
 use crate::cpu::{Access, Width};
 use crate::pins::Port;
 
@@ -18,8 +18,6 @@ const LAT: u8 = 2;
 const FLAGS_AND_ENABLES: std::ops::RangeInclusive<u8> = 3..=7;
 /// IEC0 and IEC1.
 const ENABLES: std::ops::RangeInclusive<u8> = 6..=7;
-/// ON of all blocks that are not modelled.
-const ON: u32 = 1 << 15;
 
 impl Chip {
     /// The program reads. Registers that the reference does not name read as 0.
@@ -32,7 +30,7 @@ impl Chip {
             return 0;
         };
         let value = self.peek(register, access.cycle);
-        self.note_read(register);
+        self.note_read(register, access.cycle);
         value >> (8 * (access.address & 3))
     }
 
@@ -76,7 +74,7 @@ impl Chip {
 
     /// The value of a register, without what reading sets in motion.
     fn peek(&mut self, register: Register, cycle: u64) -> u32 {
-        let Register { block, word, offset } = register;
+        let Register { block, word, .. } = register;
         let found = match block {
             Block::Watchdog => Some(self.watchdog.read()),
             Block::Timer(number) => self.timers.read(number, word, cycle),
@@ -106,7 +104,8 @@ impl Chip {
             Block::Cache => self.matrix.read_cache(word),
             Block::Port(port) => Some(self.peek_port(port, word, cycle)),
             Block::ChangeNotice => self.notice.read(word),
-            Block::Unmodelled(_) => Some(self.storage.read(offset)),
+            Block::ParallelPort => self.parallel.peek(word),
+            Block::Dma => self.dma.read(word),
         };
         found.unwrap_or(0)
     }
@@ -121,7 +120,7 @@ impl Chip {
     }
 
     /// What reading a register sets in motion.
-    fn note_read(&mut self, register: Register) {
+    fn note_read(&mut self, register: Register, cycle: u64) {
         match (register.block, register.word) {
             (Block::Port(port), PORT) => {
                 self.notice.note_read(port);
@@ -137,6 +136,7 @@ impl Chip {
                 self.settle_spi(number);
             }
             (Block::I2c(number), 6) => self.i2cs[usize::from(number)].take(),
+            (Block::ParallelPort, parallel::DATA_IN) => self.read_parallel(cycle),
             (Block::Reset, 1) if self.system.is_reset_armed() => {
                 self.order(Order::Reset(ResetSource::Software));
             }
@@ -146,7 +146,7 @@ impl Chip {
     }
 
     fn write(&mut self, register: Register, value: u32, cycle: u64) {
-        let Register { block, word, offset } = register;
+        let Register { block, word, .. } = register;
         match block {
             Block::Port(port) => self.write_port((port, word), value, cycle),
             Block::Interrupts => self.write_interrupts(word, value, cycle),
@@ -185,7 +185,8 @@ impl Chip {
                 self.order(Order::Matrix);
             }
             Block::ChangeNotice => self.write_notice(word, value, cycle),
-            Block::Unmodelled(what) => self.write_unmodelled(what, offset, value),
+            Block::ParallelPort => self.write_parallel(word, value, cycle),
+            Block::Dma => self.write_dma(word, value),
         }
     }
 
@@ -291,13 +292,6 @@ impl Chip {
         };
         self.schedule.set(Slot::Flash, cycle + operation.cycles());
         self.order(Order::Flash(operation));
-    }
-
-    fn write_unmodelled(&mut self, what: Unmodelled, offset: u32, value: u32) {
-        self.storage.write(offset, value);
-        if offset & 0x1F0 == 0 && value & ON != 0 {
-            self.record.misuse(Misuse::NotModelled(what));
-        }
     }
 }
 

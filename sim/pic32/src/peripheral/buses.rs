@@ -14,9 +14,18 @@ pub(super) enum I2cLine {
     Clock,
 }
 
+/// What happened behind the interrupt lines of a UART or SPI since the last look.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct BusEvents {
+    /// A character or word went from its queue into the shift register.
+    pub(super) left: bool,
+    /// One came.
+    pub(super) came: bool,
+}
+
 impl Chip {
     /// Whether the program would read a pin as high.
-    fn reads_high(&self, pin: Pin) -> bool {
+    pub(super) fn reads_high(&self, pin: Pin) -> bool {
         self.ports.inputs(pin.port()) & pin.mask() != 0
     }
 
@@ -53,12 +62,19 @@ impl Chip {
     pub(super) fn hear_spi_clock(&mut self, number: u8, level: Level, cycle: u64) {
         let input = self.reads_high(spi::PINS[usize::from(number)].input);
         self.spis[usize::from(number)].hear_clock(level, input);
-        self.settle_spi_pins(number, cycle);
+        self.settle_heard_spi(number, cycle);
     }
 
     pub(super) fn hear_spi_select(&mut self, number: u8, level: Level, cycle: u64) {
         self.spis[usize::from(number)].hear_select(level.is_high());
-        self.settle_spi_pins(number, cycle);
+        self.settle_heard_spi(number, cycle);
+    }
+
+    /// An SPI that is off leaves its pins to others.
+    fn settle_heard_spi(&mut self, number: u8, cycle: u64) {
+        if self.spis[usize::from(number)].is_on() {
+            self.settle_spi_pins(number, cycle);
+        }
     }
 
     /// What an SPI does to its pins, and what follows from its buffers.
@@ -75,7 +91,8 @@ impl Chip {
     /// Interrupt lines and events of an SPI.
     pub(super) fn settle_spi(&mut self, number: u8) {
         let cycle = self.record.place.cycle;
-        let spi = &self.spis[usize::from(number)];
+        let spi = &mut self.spis[usize::from(number)];
+        let events = std::mem::take(&mut spi.events);
         let lines = spi.lines();
         self.schedule.set(Slot::Spi(number), spi.next_event());
         for (irq, asserted) in [
@@ -84,6 +101,15 @@ impl Chip {
             (Irq::spi_receive(number), lines.receive),
         ] {
             self.interrupts.set_line(irq, asserted, cycle);
+        }
+        self.note_bus_events(events, (Irq::spi_transmit(number), Irq::spi_receive(number)));
+    }
+
+    pub(super) fn note_bus_events(&mut self, events: BusEvents, (transmit, receive): (Irq, Irq)) {
+        for (irq, happened) in [(transmit, events.left), (receive, events.came)] {
+            if happened {
+                self.interrupts.note_event(irq);
+            }
         }
     }
 

@@ -45,7 +45,13 @@ impl Chip {
                 }
                 Slot::Clock => self.serve_clock(due),
                 Slot::Wake => self.serve_wake(due),
+                Slot::Parallel => self.serve_parallel(due),
                 Slot::Watchdog => self.order(Order::Bark),
+                Slot::Dma => {
+                    // The machine moves it before anything later happens.
+                    self.serve_dma(due);
+                    break;
+                }
             }
         }
         self.settle_request();
@@ -100,7 +106,7 @@ impl Chip {
 
     fn schedule_timer(&mut self, number: u8) {
         let flagged = self.timers.interrupt_of(number);
-        let heard = self.interrupts.is_enabled(Irq::timer(flagged))
+        let heard = self.interrupts.is_wanted(Irq::timer(flagged))
             || flagged == TIMER_3 && self.analog.trigger_source() == Trigger::Timer3;
         let due = if heard {
             self.timers.next_match(number)
@@ -344,7 +350,8 @@ impl Chip {
     /// Interrupt lines and events of a UART.
     pub(super) fn settle_serial(&mut self, number: u8) {
         let cycle = self.record.place.cycle;
-        let serial = &self.serials[usize::from(number)];
+        let serial = &mut self.serials[usize::from(number)];
+        let events = std::mem::take(&mut serial.events);
         let lines = serial.lines();
         self.schedule
             .set(Slot::Transmitter(number), serial.next_transmit_event());
@@ -356,6 +363,8 @@ impl Chip {
             .set_line(Irq::serial_receive(number), lines.receive, cycle);
         self.interrupts
             .set_line(Irq::serial_transmit(number), lines.transmit, cycle);
+        let irqs = (Irq::serial_transmit(number), Irq::serial_receive(number));
+        self.note_bus_events(events, irqs);
     }
 
     fn serve_clock(&mut self, cycle: u64) {

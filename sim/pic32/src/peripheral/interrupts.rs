@@ -14,7 +14,13 @@ impl Irq {
     pub(crate) const ANALOG: Irq = Irq(33);
     pub(crate) const CLOCK_MONITOR: Irq = Irq(46);
     pub(crate) const CALENDAR: Irq = Irq(47);
+    pub(crate) const PARALLEL_PORT: Irq = Irq(34);
     pub(crate) const FLASH: Irq = Irq(56);
+
+    /// DMA channel 0 to 3.
+    pub(crate) const fn dma(number: u8) -> Irq {
+        Irq(48 + number)
+    }
 
     /// Core software interrupt 0 or 1.
     pub(crate) const fn software(number: u8) -> Irq {
@@ -151,6 +157,11 @@ pub(crate) struct Interrupts {
     asserted_at: [u64; 64],
     proximity: u32,
     best: Option<Pending>,
+    /// The sources that DMA listens to, and those of them that were raised.
+    listening: u64,
+    heard: u64,
+    /// Whether a line that rises counts as raised.
+    pulses_lines: bool,
 }
 
 /// The request that wins.
@@ -174,14 +185,59 @@ impl Interrupts {
             asserted_at: [0; 64],
             proximity: 0,
             best: None,
+            listening: 0,
+            heard: 0,
+            pulses_lines: false,
         };
         new.sort_by_priority();
         new
     }
 
+    /// As after a reset.
+    pub(crate) fn reset(&self) -> Interrupts {
+        Interrupts {
+            pulses_lines: self.pulses_lines,
+            ..Interrupts::new()
+        }
+    }
+
     /// Sets a flag: something happened.
     pub(crate) fn raise(&mut self, irq: Irq, cycle: u64) {
+        self.heard |= irq.mask() & self.listening;
         self.set_flags(self.flags | irq.mask(), cycle);
+    }
+
+    /// DMA listens to these sources from now on.
+    pub(crate) fn listen(&mut self, sources: u64) {
+        self.listening = sources;
+        self.heard &= sources;
+    }
+
+    /// Whether DMA listens to anything.
+    pub(crate) fn has_listener(&self) -> bool {
+        self.listening != 0
+    }
+
+    /// What was raised since the last call, of what DMA listens to.
+    pub(crate) fn take_heard(&mut self) -> u64 {
+        std::mem::take(&mut self.heard)
+    }
+
+    /// The lines that are asserted.
+    pub(crate) fn lines(&self) -> u64 {
+        self.lines
+    }
+
+    /// Whether DMA takes a line that rises for a request.
+    pub(crate) fn pulse_lines(&mut self, wanted: bool) {
+        self.pulses_lines = wanted;
+    }
+
+    /// Something happened behind a line, whether or not it was asserted before.
+    pub(crate) fn note_event(&mut self, irq: Irq) {
+        if self.pulses_lines {
+            self.heard |= irq.mask() & self.listening;
+        }
     }
 
     /// Asserts or releases the line of a level-type source.
@@ -193,6 +249,9 @@ impl Interrupts {
         };
         if lines != self.lines {
             self.lines = lines;
+            if asserted {
+                self.note_event(irq);
+            }
             self.asserted_at[irq.0 as usize] = cycle;
             self.set_flags(self.flags, cycle);
         }
@@ -281,9 +340,9 @@ impl Interrupts {
         self.best.map(|best| best.vector)
     }
 
-    /// Whether this source may interrupt.
-    pub(crate) fn is_enabled(&self, irq: Irq) -> bool {
-        self.enables & irq.mask() != 0
+    /// Whether somebody wants to know when this source is raised: the core, or DMA.
+    pub(crate) fn is_wanted(&self, irq: Irq) -> bool {
+        (self.enables | self.listening) & irq.mask() != 0
     }
 
     /// Whether the external interrupt 0 to 4 triggers on rising edges.

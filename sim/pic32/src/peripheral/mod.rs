@@ -21,7 +21,8 @@
 //! | I2C | master step by step, slave with 7 and 10 bits, masks, general call, stretching, collisions | slew rates; losing the bus |
 //! | comparators, reference | all inputs, polarity, events, pins, Sleep | looked at each 300 ns; no offset; the reference on its pin or from pins |
 //! | calendar | digits, leap years, alarm, calibration, the lock | its output pin |
-//! | PMP, DMA | registers keep what is written | everything else; switching one on is recorded |
+//! | parallel port | both master modes, the three slave modes, 8 and 16 bits, waits, strobes, selects, increments, events | addresses on data lines |
+//! | DMA | channels with cells, start and abort events, patterns, chains, priorities, CRC; a disturbed SYSKEY | the core does not wait; how long an access takes; Idle |
 
 mod access;
 mod analog;
@@ -33,6 +34,7 @@ mod comparators;
 mod compare;
 mod configuration;
 mod counter;
+mod dma;
 mod events;
 mod i2c;
 mod inputs;
@@ -41,6 +43,7 @@ mod matrix;
 mod notice;
 mod nvm;
 mod pads;
+mod parallel;
 mod ports;
 mod power;
 mod pulse;
@@ -50,14 +53,13 @@ mod register;
 mod schedule;
 mod serial;
 mod spi;
-mod storage;
 mod system;
 mod timers;
 
+pub use dma::DmaRequests;
 pub use rate::{CYCLES_PER_S, NEVER, Rate};
-pub use record::{AccessDirection, Misuse, MisuseRecord, UnknownAccess};
+pub use record::{AccessDirection, Misuse, MisuseRecord, UnknownAccess, Unmodelled};
 pub use serial::Sent;
-pub use storage::Unmodelled;
 pub use system::ResetSource;
 
 pub(crate) use interrupts::{Irq, VECTORS};
@@ -73,12 +75,14 @@ use clock::{Change, Clock};
 use comparators::Comparators;
 use compare::Compare;
 use configuration::Configuration;
+use dma::Dma;
 use i2c::I2c;
 use inputs::InputQueue;
 use interrupts::Interrupts;
 use matrix::Matrix;
 use notice::ChangeNotice;
 use nvm::Nvm;
+use parallel::ParallelPort;
 use ports::Ports;
 use power::PowerState;
 use rate::Now;
@@ -87,7 +91,6 @@ use schedule::{Schedule, Slot};
 use serial::Serial;
 use spi::Spi;
 use std::ops::Range;
-use storage::Storage;
 use system::{SystemRegisters, Watchdog};
 use timers::Timers;
 
@@ -104,6 +107,8 @@ pub(crate) enum Order {
     Matrix,
     /// A flash operation begins.
     Flash(NvmOperation),
+    /// DMA moves something that was due at this cycle.
+    Dma { cycle: u64 },
 }
 
 /// The peripherals, and what the outside does to the pins.
@@ -133,7 +138,8 @@ pub(crate) struct Chip {
     serials: [Serial; 2],
     spis: [Spi; 2],
     i2cs: [I2c; 2],
-    storage: Storage,
+    parallel: ParallelPort,
+    dma: Dma,
     inputs: InputQueue,
 }
 
@@ -166,7 +172,8 @@ impl Chip {
             serials: [Serial::new(), Serial::new()],
             spis: std::array::from_fn(|_| Spi::default()),
             i2cs: [I2c::new(), I2c::new()],
-            storage: Storage::default(),
+            parallel: ParallelPort::default(),
+            dma: Dma::new(DmaRequests::default()),
             inputs: InputQueue::default(),
         };
         chip.begin(0);
@@ -178,7 +185,7 @@ impl Chip {
         self.record.place.cycle = cycle;
         self.advance_outputs(cycle);
         self.clock.set_configuration(Configuration::of(configuration));
-        self.interrupts = Interrupts::new();
+        self.interrupts = self.interrupts.reset();
         self.offered = None;
         self.power = PowerState::default();
         self.system.reset(source);
@@ -198,7 +205,8 @@ impl Chip {
         }
         self.spis.iter_mut().for_each(Spi::reset);
         self.i2cs.iter_mut().for_each(I2c::reset);
-        self.storage = Storage::default();
+        self.parallel = ParallelPort::default();
+        self.dma.reset();
         self.ports.reset(cycle);
         self.schedule = Schedule::new();
         self.schedule.set(Slot::Input, self.inputs.next());
@@ -253,6 +261,9 @@ impl Chip {
 
     /// To be called after everything that may have changed the interrupt request.
     fn settle_request(&mut self) {
+        if self.interrupts.has_listener() {
+            self.settle_dma();
+        }
         self.attention |= self.interrupts.request() != self.offered;
     }
 
@@ -346,6 +357,7 @@ impl Chip {
             self.settle_serial(number);
             self.change_bus_clock(number, now);
         }
+        self.change_parallel_clock(cycle);
         self.check_clock();
         self.order(Order::Clock);
     }

@@ -7,7 +7,7 @@ use super::inputs::InputQueue;
 use super::ports::{Changes, Field, bits};
 use super::schedule::Slot;
 use super::timers::Ticked;
-use super::{Chip, Irq, Misuse, i2c, notice, serial, spi};
+use super::{Chip, Irq, Misuse, i2c, notice, parallel, serial, spi};
 use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// INT0 to INT4.
@@ -42,6 +42,7 @@ enum Hearer {
     SpiSelect(u8),
     I2cData(u8),
     I2cClock(u8),
+    Parallel,
 }
 
 /// Which bus a pin belongs to: SCK 1 is INT0 besides.
@@ -51,6 +52,12 @@ fn bus_of(pin: Pin) -> Option<Hearer> {
         _ if pin == pins.select => Some(Hearer::SpiSelect(number)),
         _ => None,
     });
+    let parallel = [
+        parallel::pins::READ,
+        parallel::pins::WRITE,
+        parallel::pins::SELECT,
+    ];
+    let spis = spis.or_else(|| parallel.contains(&pin).then_some(Hearer::Parallel));
     spis.or_else(|| {
         (0..)
             .zip(&i2c::PINS)
@@ -173,6 +180,7 @@ impl Chip {
             Hearer::SpiSelect(number) => self.hear_spi_select(number, level, cycle),
             Hearer::I2cData(number) => self.hear_i2c((number, I2cLine::Data), level, cycle),
             Hearer::I2cClock(number) => self.hear_i2c((number, I2cLine::Clock), level, cycle),
+            Hearer::Parallel => self.hear_parallel(cycle),
         }
     }
 

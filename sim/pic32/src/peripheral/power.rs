@@ -55,6 +55,7 @@ impl Chip {
     pub(super) fn serve_wake(&mut self, cycle: u64) {
         self.power = PowerState::Woken;
         self.start_clock(cycle);
+        self.settle_dma();
     }
 
     fn start_clock(&mut self, cycle: u64) {

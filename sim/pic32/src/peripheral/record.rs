@@ -1,10 +1,26 @@
 //! What the program did that the chip does not forgive or that this emulator does not know, by name.
 
-use super::storage::Unmodelled;
 use crate::pins::Pin;
 
 /// How many different records of a kind are kept; those after it are only counted.
 const KEPT: usize = 64;
+
+/// Something that this emulator leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unmodelled {
+    /// Addresses on the data lines of the parallel port.
+    MultiplexedAddress,
+    /// A reference voltage of the comparators that comes from pins.
+    VoltageReference,
+    /// The fault input of output compare.
+    CompareFault,
+    /// Infrared coding, automatic baud detection, addresses or wake-up of a UART.
+    SerialOption,
+    /// Other references than the supply, or a negative input, of the analog converter.
+    AnalogReference,
+    /// The proximity timer of the interrupt controller.
+    ProximityTimer,
+}
 
 /// Direction of an access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -74,6 +90,12 @@ pub enum Misuse {
     I2cStepIgnored(u8),
     /// I2C 1 or 2, by number, was switched on with a divider of 0 or 1.
     I2cDivider(u8),
+    /// Addresses or sizes of DMA channel 0 to 3 were changed while it was on.
+    DmaChannelOn(u8),
+    /// DMA channel 0 to 3 has auto enable and chaining together.
+    DmaSettings(u8),
+    /// The data or the address of the parallel port was used while an access was under way.
+    ParallelPortBusy,
     /// Something was switched on that this emulator does not model.
     NotModelled(Unmodelled),
 }

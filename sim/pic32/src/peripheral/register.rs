@@ -1,6 +1,5 @@
 //! Which register an address is: block and word, from the tables of the reference.
 
-use super::storage::Unmodelled;
 use crate::pins::Port;
 
 /// A block of registers, 16 bytes apart.
@@ -17,6 +16,8 @@ pub(crate) enum Block {
     Comparators,
     Calendar,
     VoltageReference,
+    ParallelPort,
+    Dma,
     Oscillator,
     Device,
     Flash,
@@ -26,8 +27,6 @@ pub(crate) enum Block {
     Cache,
     Port(Port),
     ChangeNotice,
-    /// Plain storage.
-    Unmodelled(Unmodelled),
 }
 
 /// One register.
@@ -108,7 +107,6 @@ fn repeated(offset: u32, first: u32) -> (u8, u32) {
 }
 
 fn block_of(offset: u32) -> Option<(Block, u32)> {
-    use Block::Unmodelled as Kept;
     let numbered = |first: u32, block: fn(u8) -> Block| {
         let (number, base) = repeated(offset, first);
         Some((block(number), base))
@@ -122,7 +120,7 @@ fn block_of(offset: u32) -> Option<(Block, u32)> {
         0x0_5000..=0x0_53FF => numbered(0x5000, Block::I2c),
         0x0_5800..=0x0_5BFF => numbered(0x5800, Block::Spi),
         SERIAL_BASE..=0x0_63FF => numbered(SERIAL_BASE, Block::Serial),
-        0x0_7000..=0x0_706F => Some((Kept(Unmodelled::ParallelPort), 0x7000)),
+        0x0_7000..=0x0_706F => Some((Block::ParallelPort, 0x7000)),
         0x0_9000..=0x0_916F => Some((Block::Analog, 0x9000)),
         0x0_9800 => Some((Block::VoltageReference, 0x9800)),
         0x0_A000..=0x0_A06F => Some((Block::Comparators, 0xA000)),
@@ -132,7 +130,7 @@ fn block_of(offset: u32) -> Option<(Block, u32)> {
         0x0_F600..=0x0_F61F => Some((Block::Reset, 0xF600)),
         0x8_1000..=0x8_114F => Some((Block::Interrupts, 0x8_1000)),
         0x8_2000..=0x8_207F => Some((Block::BusMatrix, 0x8_2000)),
-        0x8_3000..=0x8_335F => Some((Kept(Unmodelled::Dma), 0x8_3000)),
+        0x8_3000..=0x8_335F => Some((Block::Dma, 0x8_3000)),
         0x8_4000..=0x8_40CF => Some((Block::Cache, 0x8_4000)),
         0x8_6000..=0x8_61BF => {
             let port = Port::ALL[(offset as usize - 0x8_6000) / 0x40];
@@ -183,6 +181,7 @@ mod tests {
             (0xBF80_5830, Block::Spi(0), 3),
             (0xBF80_5A20, Block::Spi(1), 2),
             (0xBF80_6240, Block::Serial(1), 4),
+            (0xBF80_7060, Block::ParallelPort, 6),
             (0xBF80_9060, Block::Analog, 6),
             (0xBF80_9160, Block::Analog, 22),
             (0xBF80_9800, Block::VoltageReference, 0),
@@ -194,6 +193,9 @@ mod tests {
             (0xBF88_1064, Block::Interrupts, 6),
             (0xBF88_1140, Block::Interrupts, 20),
             (0xBF88_2070, Block::BusMatrix, 7),
+            (0xBF88_3030, Block::Dma, 3),
+            (0xBF88_3060, Block::Dma, 6),
+            (0xBF88_3350, Block::Dma, 53),
             (0xBF88_40C0, Block::Cache, 12),
             (0xBF88_6068, Block::Port(Port::B), 2),
             (0xBF88_61B0, Block::Port(Port::G), 3),

@@ -33,9 +33,13 @@ pub(crate) enum Slot {
     Wake,
     /// The watchdog barks.
     Watchdog,
+    /// A phase of an access of the parallel port ends.
+    Parallel,
+    /// DMA moves something.
+    Dma,
 }
 
-const SLOTS: [Slot; 26] = [
+const SLOTS: [Slot; 28] = [
     Slot::Input,
     Slot::Timer(0),
     Slot::Timer(1),
@@ -62,6 +66,8 @@ const SLOTS: [Slot; 26] = [
     Slot::Watchdog,
     Slot::Comparators,
     Slot::Calendar,
+    Slot::Parallel,
+    Slot::Dma,
 ];
 
 impl Slot {
@@ -81,6 +87,8 @@ impl Slot {
             Slot::Watchdog => 23,
             Slot::Comparators => 24,
             Slot::Calendar => 25,
+            Slot::Parallel => 26,
+            Slot::Dma => 27,
         }
     }
 }

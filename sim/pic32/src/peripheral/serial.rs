@@ -1,5 +1,6 @@
 //! UART 1 and 2 (here 0 and 1): queues, bit times, framing, both as levels on their pins.
 
+use super::buses::BusEvents;
 use super::rate::{CountSpan, NEVER, Now};
 use crate::pins::{Level, Pin, Port, known};
 use std::collections::VecDeque;
@@ -118,6 +119,7 @@ pub(crate) struct Serial {
     outgoing: VecDeque<u16>,
     shift: Option<Shift>,
     pub(crate) sent: Vec<(u64, Sent)>,
+    pub(super) events: BusEvents,
     incoming: VecDeque<ReceivedFrame>,
     arrival: Option<IncomingFrame>,
     line: bool,
@@ -141,6 +143,7 @@ impl Serial {
             outgoing: VecDeque::new(),
             shift: None,
             sent: Vec::new(),
+            events: BusEvents::default(),
             incoming: VecDeque::new(),
             arrival: None,
             line: true,
@@ -238,6 +241,7 @@ impl Serial {
         let Some(character) = self.outgoing.pop_front() else {
             return;
         };
+        self.events.left = true;
         let (bits, parity) = self.shape();
         let stop_bits = if self.mode & TWO_STOP_BITS != 0 { 2 } else { 1 };
         let data = character & ((1 << bits) - 1);
@@ -326,6 +330,7 @@ impl Serial {
         if self.incoming.len() == DEPTH || self.overrun {
             self.overrun = true;
         } else {
+            self.events.came = true;
             self.incoming.push_back(ReceivedFrame {
                 character,
                 framing,

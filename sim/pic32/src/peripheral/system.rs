@@ -115,6 +115,13 @@ impl SystemRegisters {
         self.causes
     }
 
+    /// Another access came between the two words.
+    pub(crate) fn disturb_lock(&mut self) {
+        if self.lock == Lock::HalfOpen {
+            self.lock = Lock::Closed;
+        }
+    }
+
     pub(crate) fn is_open(&self) -> bool {
         self.lock == Lock::Open
     }

@@ -6,12 +6,14 @@ mod calendar;
 mod clock;
 mod comparators;
 mod compare;
+mod dma;
 mod flash;
 mod halts;
 mod i2c;
 mod interrupts;
 #[path = "../joined/mod.rs"]
 mod joined;
+mod parallel;
 mod pins;
 mod power;
 mod program;

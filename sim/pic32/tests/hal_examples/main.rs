@@ -5,8 +5,10 @@
 mod buses;
 mod calendar;
 mod comparator;
+mod dma;
 #[path = "../joined/mod.rs"]
 mod joined;
+mod parallel;
 mod power;
 
 use pic32::image::Image;

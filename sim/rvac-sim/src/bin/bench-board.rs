@@ -1,4 +1,4 @@
-//! `bench-board`: draws faults of clocks, disks, cables and gyros, and judges what people are told of each; with `--log-hours` it counts
+//! `bench-board`: draws faults of clocks, time zones, disks, cables, gyros and gamepads, and judges what people are told of each; with `--log-hours` it counts
 //! what the log says in so many hours.
 #![forbid(unsafe_code)]
 
@@ -16,7 +16,7 @@ use serde::Serialize;
 #[derive(Debug, Parser)]
 struct Arguments {
     /// So many faults.
-    #[arg(long, default_value_t = 90)]
+    #[arg(long, default_value_t = 200)]
     seeds: u64,
     /// The home.
     #[arg(long, default_value = "homes/two-room-flat.toml")]

@@ -2,6 +2,9 @@
 
 use home::{Pcg, SensorFault};
 
+use super::pad::PadFault;
+use super::zone::ZoneFault;
+
 /// Something that fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BoardFault {
@@ -25,6 +28,10 @@ pub enum BoardFault {
         /// Seconds.
         by_s: i64,
     },
+    /// The system says in an unusual way in which time zone it is, or not at all.
+    Zone(ZoneFault),
+    /// A gamepad.
+    Pad(PadFault),
 }
 
 /// Names by which faults are told; whichever is not of the present fault is a wrong cause.
@@ -70,10 +77,9 @@ impl BoardFaults {
         self.0.iter().copied()
     }
 
-    /// Whether one of them leaves no robot on the line.
-    pub(super) fn strange_line(&self) -> Option<BoardFault> {
-        self.iter()
-            .find(|fault| matches!(fault, BoardFault::WrongSpeed | BoardFault::Console))
+    /// The one that nothing else is drawn beside: it leaves no robot on the line, or has a trial of its own.
+    pub(super) fn lone(&self) -> Option<BoardFault> {
+        self.iter().find(|fault| fault.is_lone())
     }
 
     /// Names of other faults in a line of the log.
@@ -90,9 +96,20 @@ impl BoardFaults {
 }
 
 /// So many kinds take turns.
-const KINDS: u64 = 9;
+pub(super) const KINDS: u64 = 20;
+/// Numbers of the first zone's and the first pad's kind.
+const FIRST_ZONE: u64 = 9;
+const FIRST_PAD: u64 = 15;
 
 impl BoardFault {
+    /// Whether nothing else is drawn beside it.
+    const fn is_lone(self) -> bool {
+        matches!(
+            self,
+            Self::WrongSpeed | Self::Console | Self::Zone(_) | Self::Pad(_)
+        )
+    }
+
     /// What fails beside it; nothing beside a line without a robot, for which no robot is simulated.
     fn companion(self, number: u64, round: u64) -> Option<Self> {
         // Their kinds by number. A gyro shows only while the cable is in, so it gets the disk or the clock.
@@ -100,7 +117,7 @@ impl BoardFault {
         let disk = Self::drawn(KINDS * number + 7);
         let clock = Self::drawn(KINDS * number + 8);
         match self {
-            Self::WrongSpeed | Self::Console => None,
+            _ if self.is_lone() => None,
             Self::DiskRefuses(_) if round % 4 == 1 => Some(cable),
             Self::DiskRefuses(_) => Some(clock),
             Self::ClockJump { .. } if round % 4 == 1 => Some(cable),
@@ -137,9 +154,11 @@ impl BoardFault {
                         .unwrap_or("Input/output error (os error 5)"),
                 )
             }
-            _ => Self::ClockJump {
+            8 => Self::ClockJump {
                 by_s: ((random.unit() - 0.5) * 7_200.0) as i64,
             },
+            kind @ FIRST_ZONE..FIRST_PAD => Self::Zone(ZoneFault::ALL[(kind - FIRST_ZONE) as usize]),
+            kind => Self::Pad(PadFault::ALL[(kind - FIRST_PAD) as usize]),
         }
     }
 
@@ -156,6 +175,8 @@ impl BoardFault {
             Self::Console => "console",
             Self::DiskRefuses(_) => "disk-refuses",
             Self::ClockJump { .. } => "clock-jump",
+            Self::Zone(fault) => fault.kind(),
+            Self::Pad(fault) => fault.kind(),
         }
     }
 
@@ -170,7 +191,8 @@ impl BoardFault {
             Self::WrongSpeed => &["line-wrong-speed"],
             Self::Console => &["line-has-console"],
             Self::DiskRefuses(_) => &["schedules-unwritable"],
-            Self::ClockJump { .. } => &[],
+            // The last two are told elsewhere than in a run's log, and judged by trials of their own.
+            Self::ClockJump { .. } | Self::Zone(_) | Self::Pad(_) => &[],
         }
     }
 
@@ -204,7 +226,7 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{BoardFault, BoardFaults};
+    use super::{BoardFault, BoardFaults, KINDS};
 
     #[test]
     fn names_are_whole_words_and_those_of_others_are_wrong() {
@@ -218,11 +240,11 @@ mod tests {
     }
 
     #[test]
-    fn every_other_round_has_two_kinds_and_a_strange_line_stays_alone() {
-        for number in 0..90 {
+    fn every_other_round_has_two_kinds_and_what_has_its_own_trial_stays_alone() {
+        for number in 0..10 * KINDS {
             let faults = BoardFaults::drawn(number);
             let kinds: std::collections::BTreeSet<_> = faults.iter().map(BoardFault::kind).collect();
-            let is_pair = number / 9 % 2 == 1 && faults.strange_line().is_none();
+            let is_pair = number / KINDS % 2 == 1 && faults.lone().is_none();
             assert_eq!(kinds.len(), if is_pair { 2 } else { 1 }, "{faults:?}");
         }
     }

@@ -8,6 +8,7 @@ use rvac_api::{RequestBody, ScheduleEntry};
 use serde::Serialize;
 
 use super::fault::{BoardFault, BoardFaults};
+use super::{pad, zone};
 use crate::daily::{MIDNIGHT_S, daily_job};
 use crate::run::{RunSettings, core_config, household, start_cleaning};
 use crate::{Host, Household, Scene, TICK_US};
@@ -92,7 +93,9 @@ pub fn campaign(scene: &Scene, seeds: u64) -> BoardFigures {
 #[must_use]
 pub fn passage(scene: &Scene, seed: u64) -> BoardPassage {
     let faults = BoardFaults::drawn(seed);
-    let passed = match faults.strange_line() {
+    let passed = match faults.lone() {
+        Some(BoardFault::Zone(fault)) => zone::passage(scene, fault, seed),
+        Some(BoardFault::Pad(fault)) => pad::passage(scene, fault, seed),
         Some(fault) => strange_line(scene, fault, seed),
         None => Trial::new(scene, faults, seed).run(),
     };
@@ -245,8 +248,8 @@ impl Trial {
                     host.set_wall(now_us, WALL_S + (now_us / 1_000_000).cast_signed() + by_s);
                 }
             }
-            // No robot is needed for these.
-            BoardFault::WrongSpeed | BoardFault::Console => {}
+            // These have trials of their own.
+            BoardFault::WrongSpeed | BoardFault::Console | BoardFault::Zone(_) | BoardFault::Pad(_) => {}
         }
     }
 

@@ -7,6 +7,7 @@
 mod framed;
 mod word;
 
+use super::buses::BusEvents;
 use super::rate::{CountSpan, NEVER, Now, Rate};
 use crate::pins::{Level, Pin, Port, known};
 use framed::Frame;
@@ -89,6 +90,7 @@ pub(crate) struct Spi {
     select_high: bool,
     clock: Option<SpiClock>,
     frame: Frame,
+    pub(super) events: BusEvents,
 }
 
 /// What an SPI does to its pins; it leaves alone what is not named.
@@ -133,7 +135,7 @@ impl Spi {
         self.control & bits != 0
     }
 
-    fn is_on(&self) -> bool {
+    pub(super) fn is_on(&self) -> bool {
         self.has(ON)
     }
 
@@ -285,6 +287,7 @@ impl Spi {
 
     /// The word to send next: the one that waits, or what is left from before.
     fn next_word(&mut self) -> SpiWord {
+        self.events.left |= self.waiting.is_some();
         let out = self.waiting.take().unwrap_or(self.left);
         SpiWord::new(out, self.bits())
     }
@@ -326,6 +329,7 @@ impl Spi {
     /// A word is complete.
     fn deliver(&mut self, taken: u32) {
         self.left = taken;
+        self.events.came = true;
         if self.received.is_some() {
             self.overrun = true;
         } else if !self.overrun {
