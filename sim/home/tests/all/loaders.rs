@@ -246,6 +246,26 @@ fn a_threshold_that_is_too_high_is_a_wall() {
 }
 
 #[test]
+fn an_open_door_does_not_take_away_a_threshold_that_is_too_high() {
+    let plan = |height_m: f64| {
+        scene::home(&format!(
+            "{}[[wall]]\nfrom = [2.0, 0.0]\nto = [2.0, 3.0]\n\
+             [[door]]\nfrom = [2.0, 1.0]\nto = [2.0, 2.0]\nthickness-m = 0.16\nstate = \"open\"\n\
+             [[threshold]]\nfrom = [2.0, 1.0]\nto = [2.0, 2.0]\nwidth-m = 0.08\nheight-m = {height_m}\n",
+            room(5.0, 3.0)
+        ))
+    };
+    let barred = plan(0.03);
+    assert!(barred.reachable_area_m2() < 9.5);
+    assert_eq!(
+        barred.with_doors_open().grid().cells,
+        barred.grid().cells,
+        "the door stood open before"
+    );
+    assert!(plan(0.01).reachable_area_m2() > 13.5);
+}
+
+#[test]
 fn drops_are_neither_floor_nor_reachable() {
     let cliff = "[[cliff]]\npolygon = [[2.0, 0.0], [3.0, 0.0], [3.0, 3.0], [2.0, 3.0]]\n";
     let home = scene::home(&format!("{}{cliff}", room(5.0, 3.0)));

@@ -156,18 +156,32 @@ impl FloorplanPainter<'_> {
         }
     }
 
+    /// Thresholds that are too high for the robot: a wall, also in an open door.
+    pub(super) fn steps(&mut self, thresholds: &[RawThreshold], climb_m: f64, doors: &mut [Door]) {
+        for threshold in thresholds.iter().filter(|threshold| threshold.height_m > climb_m) {
+            let ends = [self.place(threshold.from), self.place(threshold.to)];
+            Canvas::of(self.grid).strip(ends, threshold.width_m, |cells, index| {
+                solid(cells, index);
+                let leaves = doors.iter_mut().flat_map(|door| &mut door.cells);
+                for (_, behind) in leaves.filter(|(cell, _)| *cell == index) {
+                    *behind = Cell::Obstacle;
+                }
+            });
+        }
+    }
+
+    /// Thresholds that the robot climbs; for the others see [`Self::steps`].
     pub(super) fn thresholds(
         &mut self,
         check: &Check<'_>,
         thresholds: &[RawThreshold],
         climb_m: f64,
     ) -> Result<(), HomeError> {
-        for threshold in thresholds {
+        for threshold in thresholds
+            .iter()
+            .filter(|threshold| threshold.height_m <= climb_m)
+        {
             let ends = [self.place(threshold.from), self.place(threshold.to)];
-            if threshold.height_m > climb_m {
-                Canvas::of(self.grid).strip(ends, threshold.width_m, solid);
-                continue;
-            }
             let surface = Surface {
                 drag_n: threshold.height_m * THRESHOLD_DRAG_N_PER_M,
                 slip: THRESHOLD_SLIP,

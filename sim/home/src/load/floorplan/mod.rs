@@ -28,6 +28,7 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
     drawing.solids(&plan);
     let mut doors = drawing.doors(&plan.doors);
     drawing.furniture(&plan.furniture);
+    drawing.steps(&plan.thresholds, climb_m, &mut doors);
     drawing.thresholds(&check, &plan.thresholds, climb_m)?;
     let mirrors = drawing.mirrors(&plan.mirrors);
     doors.extend(drawing.visitors(&plan.visitors));
