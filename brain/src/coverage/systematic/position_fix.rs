@@ -38,7 +38,7 @@ struct FixParameters {
     corner_m: [f64; 8],
     /// A wall without a corner is as good as a corner that is so much farther, metres.
     plain_wall_m: f64,
-    /// Cells between two places that are judged.
+    /// Cells between two places that are judged: less than the goals are wide, or a wall between two of them would have none.
     step_cells: usize,
 }
 
@@ -50,7 +50,7 @@ const FIX: FixParameters = FixParameters {
     gap_m: [0.02, 0.08],
     corner_m: [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
     plain_wall_m: 6.0,
-    step_cells: 4,
+    step_cells: 2,
 };
 
 /// The drive to a corner and along its walls.
