@@ -8,7 +8,7 @@ use core::task::Poll;
 
 use crate::coverage::parameters::MARGINS;
 use crate::coverage::{LapStep, Perimeter};
-use crate::mapping::{Cell, CellKnowledge, DistanceField, Raster};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, Pose2};
@@ -38,6 +38,8 @@ struct FixParameters {
     corner_m: [f64; 8],
     /// A wall without a corner is as good as a corner that is so much farther, metres.
     plain_wall_m: f64,
+    /// Forbidden floor is kept this far ahead of the body, metres.
+    forbidden_m: f64,
     /// Cells between two places that are judged: less than the goals are wide, or a wall between two of them would have none.
     step_cells: usize,
 }
@@ -50,6 +52,7 @@ const FIX: FixParameters = FixParameters {
     gap_m: [0.02, 0.08],
     corner_m: [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
     plain_wall_m: 6.0,
+    forbidden_m: 0.05,
     step_cells: 2,
 };
 
@@ -104,7 +107,11 @@ impl PositionFix {
             Stage::Idle => self.begin(avoid, situation, context),
             Stage::Planning(rest) => self.plan_on(rest, situation),
             Stage::Going(follower) => self.go(follower, situation),
-            Stage::AlongWalls(walls) => self.follow(walls, situation, context),
+            Stage::AlongWalls(walls) => {
+                let reach_m = situation.config.body.radius_m + FIX.forbidden_m;
+                let is_barred = leads_into_forbidden(situation.map, situation.pose, reach_m, avoid);
+                self.follow(walls, is_barred, (situation, context))
+            }
         }
     }
 
@@ -156,15 +163,18 @@ impl PositionFix {
         FixStep::Driving(TaskStatus::Go(motion))
     }
 
+    /// Follows the walls, unless they lead into forbidden floor.
     fn follow(
         &mut self,
         mut walls: Box<Perimeter>,
-        situation: &Situation<'_>,
-        context: &mut TaskContext,
+        is_barred: bool,
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> FixStep {
         let may_end = !walls.is_evading() && situation.is_free();
-        let is_over =
-            situation.estimate.lost || self.is_sharp(situation) || walls.driven_m() > FIX.along_max_m;
+        let is_over = is_barred
+            || situation.estimate.lost
+            || self.is_sharp(situation)
+            || walls.driven_m() > FIX.along_max_m;
         if may_end && is_over {
             context.decide(
                 DecisionKind::FixTaken,
@@ -190,6 +200,20 @@ impl PositionFix {
         *self = Self::default();
         FixStep::Over
     }
+}
+
+/// Whether forbidden floor lies in front of a robot, within `reach_m` of its centre and a right angle to both sides.
+fn leads_into_forbidden(map: &Map, pose: Pose2, reach_m: f64, avoid: &[NoGo]) -> bool {
+    const DIRECTIONS_RAD: [f64; 7] = [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
+    let steps = libm::ceil(reach_m / CELL_M) as u32;
+    DIRECTIONS_RAD.into_iter().any(|aside_rad| {
+        let ray = Pose2 {
+            heading_rad: pose.heading_rad + aside_rad,
+            ..pose
+        };
+        (1..=steps)
+            .any(|step| map.is_forbidden(ray.after_arc(f64::from(step) * CELL_M, 0.0).position(), avoid))
+    })
 }
 
 /// What the search for a place depends on.
@@ -264,10 +288,13 @@ impl Places {
 
 #[cfg(test)]
 mod tests {
-    use super::Places;
-    use crate::mapping::{Cell, CellKnowledge, DistanceField, Raster};
+    use super::{Places, leads_into_forbidden};
+    use crate::mapping::{Cell, CellKnowledge, DistanceField, Map, Raster};
+    use crate::model::config::{Body, SensorLayout};
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::gradual::at_once;
+    use crate::model::no_go::NoGo;
+    use crate::model::zone::Zone;
 
     /// Where a robot at this place of an empty hall goes, and how far that is. Sizes in cells of 2.5 cm.
     fn way(width: usize, height: usize, from: Point2) -> (Point2, f64) {
@@ -305,5 +332,34 @@ mod tests {
     fn a_wall_does_where_corners_are_far() {
         let (end, length_m) = way(1_200, 240, Point2 { x_m: 15.0, y_m: 3.4 });
         assert!(end.y_m > 5.6 && length_m < 3.0, "{end:?} after {length_m} m");
+    }
+
+    #[test]
+    fn walls_are_left_before_forbidden_floor_and_only_then() {
+        let body = Body {
+            radius_m: 0.17,
+            swath_m: 0.27,
+            track_m: 0.23,
+        };
+        let map = Map::new(body, SensorLayout::default());
+        let corner = |x_m, y_m| Point2 { x_m, y_m };
+        let corners = vec![
+            corner(1.0, -1.0),
+            corner(2.0, -1.0),
+            corner(2.0, 1.0),
+            corner(1.0, 1.0),
+        ];
+        let avoid = [NoGo::zone(&Zone::new(corners).unwrap()).unwrap()];
+        let nears = |x_m, heading_rad| {
+            let pose = Pose2 {
+                x_m,
+                y_m: 0.0,
+                heading_rad,
+            };
+            leads_into_forbidden(&map, pose, 0.22, &avoid)
+        };
+        assert!(!nears(0.7, 0.0), "it is 0.3 m away");
+        assert!(nears(0.82, 0.0) && nears(0.82, 1.4), "ahead, and beside");
+        assert!(!nears(0.82, 3.1), "it drives away");
     }
 }
