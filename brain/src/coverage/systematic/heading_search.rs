@@ -3,6 +3,7 @@
 //! It bounces first: straight lines in several directions locate the beacons soonest. Where they tell no heading for long, or have
 //! fallen silent, it cleans by statistics, as a robot without beacons does, and lanes begin as soon as the heading is known.
 
+use super::detour::DetourStep;
 use crate::coverage::{Bounce, Statistical};
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
@@ -25,17 +26,6 @@ enum Drive {
     ByStatistics(Box<Statistical>),
 }
 
-/// What to do after a step of the search.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum HeadingSearchStep {
-    /// The heading is known: lanes go on.
-    Idle,
-    /// The heading has just become known: earlier plans are void.
-    Over,
-    /// The search is in progress.
-    Driving(TaskStatus),
-}
-
 impl HeadingSearch {
     /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
@@ -46,20 +36,20 @@ impl HeadingSearch {
         }
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> HeadingSearchStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> DetourStep {
         // A gyro that was lost may come back, and is waited for elsewhere.
         let is_needed = !situation.knows_heading && situation.gyro_fault.is_none();
         if self.drive.is_none() && !is_needed {
-            return HeadingSearchStep::Idle;
+            return DetourStep::Idle;
         }
         let may_end = situation.is_free() && !self.is_evading();
         if !is_needed && may_end {
             context.decide(DecisionKind::HeadingFound, Reason::BeaconsHeard, self.driven_m);
             *self = Self::default();
-            return HeadingSearchStep::Over;
+            return DetourStep::Over;
         }
         self.driven_m += situation.advance.distance_m.abs();
-        HeadingSearchStep::Driving(self.drive(situation, context))
+        DetourStep::Driving(self.drive(situation, context))
     }
 
     fn is_evading(&self) -> bool {

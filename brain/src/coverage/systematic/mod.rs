@@ -13,6 +13,7 @@
 
 mod assignment;
 mod contact_offset;
+mod detour;
 mod frontier;
 mod gain;
 mod heading_search;
@@ -50,17 +51,18 @@ use crate::navigation::{
 };
 use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
+use detour::DetourStep;
 use frontier::margin_cells;
 use gain::Gain;
-use heading_search::{HeadingSearch, HeadingSearchStep};
+use heading_search::HeadingSearch;
 use known_floor::KnownFloor;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use parameters::{SQUEEZE, SYSTEMATIC};
 use passed::{CellWindow, Passed};
 use plan_evaluation::MadePlan;
 use plan_progress::{PlanInputs, PlanProgress, settings};
-use position_fix::{FixStep, PositionFix};
-use relocalization::{RelocalizationLap, RelocalizationStep};
+use position_fix::PositionFix;
+use relocalization::RelocalizationLap;
 use share::{PassedFloor, Shares};
 use squeeze::Squeeze;
 use standoff::Standoff;
@@ -230,14 +232,8 @@ impl Systematic {
 
     /// Drives about while the robot must learn its heading from beacons.
     fn find_heading(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
-        match self.heading_search.step(situation, context) {
-            HeadingSearchStep::Idle => None,
-            HeadingSearchStep::Over => {
-                self.interrupted();
-                None
-            }
-            HeadingSearchStep::Driving(plan) => Some(plan),
-        }
+        let step = self.heading_search.step(situation, context);
+        self.detour(step)
     }
 
     /// Relocalizes when the robot is lost on its map.
@@ -245,14 +241,8 @@ impl Systematic {
         if !situation.is_tracked || self.evasion.is_some() {
             return None;
         }
-        match self.relocalization.step(situation, context) {
-            RelocalizationStep::Idle => None,
-            RelocalizationStep::Over => {
-                self.interrupted();
-                None
-            }
-            RelocalizationStep::Driving(plan) => Some(plan),
-        }
+        let step = self.relocalization.step(situation, context);
+        self.detour(step)
     }
 
     /// Goes to walls when the position has become vague.
@@ -261,13 +251,19 @@ impl Systematic {
             return None;
         }
         let avoid = self.assignment.avoided();
-        match self.position_fix.step(avoid, situation, context) {
-            FixStep::Idle => None,
-            FixStep::Over => {
+        let step = self.position_fix.step(avoid, situation, context);
+        self.detour(step)
+    }
+
+    /// The motion of a detour; `None` when lanes go on.
+    fn detour(&mut self, step: DetourStep) -> Option<TaskStatus> {
+        match step {
+            DetourStep::Idle => None,
+            DetourStep::Over => {
                 self.interrupted();
                 None
             }
-            FixStep::Driving(plan) => Some(plan),
+            DetourStep::Driving(status) => Some(status),
         }
     }
 

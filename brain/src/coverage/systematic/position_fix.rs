@@ -6,6 +6,7 @@
 
 use core::task::Poll;
 
+use super::detour::DetourStep;
 use crate::coverage::parameters::MARGINS;
 use crate::coverage::{LapStep, Perimeter};
 use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, Map, Raster};
@@ -74,17 +75,6 @@ enum Stage {
     AlongWalls(Box<Perimeter>),
 }
 
-/// What to do after a step of the fix.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum FixStep {
-    /// No fix is needed: lanes go on.
-    Idle,
-    /// It has just ended: earlier plans are void.
-    Over,
-    /// It is in progress.
-    Driving(TaskStatus),
-}
-
 impl PositionFix {
     /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
@@ -101,7 +91,7 @@ impl PositionFix {
         avoid: &[NoGo],
         situation: &Situation<'_>,
         context: &mut TaskContext,
-    ) -> FixStep {
+    ) -> DetourStep {
         self.since_m += situation.advance.distance_m.abs();
         match core::mem::take(&mut self.stage) {
             Stage::Idle => self.begin(avoid, situation, context),
@@ -115,19 +105,23 @@ impl PositionFix {
         }
     }
 
-    fn begin(&mut self, avoid: &[NoGo], situation: &Situation<'_>, context: &mut TaskContext) -> FixStep {
+    fn begin(&mut self, avoid: &[NoGo], situation: &Situation<'_>, context: &mut TaskContext) -> DetourStep {
         let sigma_m = situation.estimate.sigma_m;
         let is_vague = !situation.estimate.lost && sigma_m > FIX.from_sigma_m;
         if !is_vague || self.since_m < FIX.apart_m || !situation.is_free() {
-            return FixStep::Idle;
+            return DetourStep::Idle;
         }
         context.decide(DecisionKind::TakeFix, Reason::PlaceVague, sigma_m);
         let places = Places::of(situation, avoid);
         self.stage = Stage::Planning(Gradual::new(places.path()));
-        FixStep::Driving(TaskStatus::Go(Motion::Halt))
+        DetourStep::Driving(TaskStatus::Go(Motion::Halt))
     }
 
-    fn plan_on(&mut self, mut rest: Gradual<Option<Vec<PathSegment>>>, situation: &Situation<'_>) -> FixStep {
+    fn plan_on(
+        &mut self,
+        mut rest: Gradual<Option<Vec<PathSegment>>>,
+        situation: &Situation<'_>,
+    ) -> DetourStep {
         self.stage = match rest.go_on() {
             Poll::Pending => Stage::Planning(rest),
             Poll::Ready(Some(segments)) => Stage::Going(PathFollower::new(segments)),
@@ -137,10 +131,10 @@ impl PositionFix {
         if situation.estimate.lost {
             return self.end();
         }
-        FixStep::Driving(TaskStatus::Go(Motion::Halt))
+        DetourStep::Driving(TaskStatus::Go(Motion::Halt))
     }
 
-    fn go(&mut self, mut follower: PathFollower, situation: &Situation<'_>) -> FixStep {
+    fn go(&mut self, mut follower: PathFollower, situation: &Situation<'_>) -> DetourStep {
         if situation.estimate.lost || (self.is_sharp(situation) && situation.is_free()) {
             return self.end();
         }
@@ -160,7 +154,7 @@ impl PositionFix {
                 Motion::Halt
             }
         };
-        FixStep::Driving(TaskStatus::Go(motion))
+        DetourStep::Driving(TaskStatus::Go(motion))
     }
 
     /// Follows the walls, unless they lead into forbidden floor.
@@ -169,7 +163,7 @@ impl PositionFix {
         mut walls: Box<Perimeter>,
         is_barred: bool,
         (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> FixStep {
+    ) -> DetourStep {
         let may_end = !walls.is_evading() && situation.is_free();
         let is_over = is_barred
             || situation.estimate.lost
@@ -189,16 +183,16 @@ impl PositionFix {
             LapStep::Over(_) => TaskStatus::Go(walls.leave()),
         };
         self.stage = Stage::AlongWalls(walls);
-        FixStep::Driving(status)
+        DetourStep::Driving(status)
     }
 
     fn is_sharp(&self, situation: &Situation<'_>) -> bool {
         situation.estimate.sigma_m < FIX.until_sigma_m
     }
 
-    fn end(&mut self) -> FixStep {
+    fn end(&mut self) -> DetourStep {
         *self = Self::default();
-        FixStep::Over
+        DetourStep::Over
     }
 }
 

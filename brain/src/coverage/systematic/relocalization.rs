@@ -3,6 +3,7 @@
 //! Lanes on a wrong pose lead nowhere, and what they sweep is recorded in the wrong place. Walls give the particle filter
 //! most information, and following them leads through all rooms.
 
+use super::detour::DetourStep;
 use super::parameters::SYSTEMATIC;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::decision::DecisionKind;
@@ -16,17 +17,6 @@ pub(super) struct RelocalizationLap {
     has_given_up: bool,
 }
 
-/// What to do after a step of relocalization.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum RelocalizationStep {
-    /// The pose is known, or relocalization failed: lanes go on.
-    Idle,
-    /// Relocalization has just ended: earlier plans are void.
-    Over,
-    /// Relocalization is in progress.
-    Driving(TaskStatus),
-}
-
 impl RelocalizationLap {
     /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
@@ -35,11 +25,7 @@ impl RelocalizationLap {
         }
     }
 
-    pub(super) fn step(
-        &mut self,
-        situation: &Situation<'_>,
-        context: &mut TaskContext,
-    ) -> RelocalizationStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> DetourStep {
         if !situation.estimate.lost {
             self.has_given_up = false;
             return match self.lap.take() {
@@ -47,12 +33,12 @@ impl RelocalizationLap {
                     self.lap = Some(lap);
                     self.follow(situation, context)
                 }
-                Some(_) => RelocalizationStep::Over,
-                None => RelocalizationStep::Idle,
+                Some(_) => DetourStep::Over,
+                None => DetourStep::Idle,
             };
         }
         if self.has_given_up {
-            return RelocalizationStep::Idle;
+            return DetourStep::Idle;
         }
         if self.lap.is_none() {
             context.decide(DecisionKind::FollowWall, Reason::PlaceUnknown, 0.0);
@@ -60,7 +46,7 @@ impl RelocalizationLap {
         self.follow(situation, context)
     }
 
-    fn follow(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> RelocalizationStep {
+    fn follow(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> DetourStep {
         let lap = self.lap.get_or_insert_default();
         if lap.driven_m() > SYSTEMATIC.relocalization_max_m && !lap.is_evading() && situation.is_free() {
             self.lap = None;
@@ -70,9 +56,9 @@ impl RelocalizationLap {
                 Reason::LongLap,
                 SYSTEMATIC.relocalization_max_m,
             );
-            return RelocalizationStep::Over;
+            return DetourStep::Over;
         }
-        RelocalizationStep::Driving(match lap.step(situation, context) {
+        DetourStep::Driving(match lap.step(situation, context) {
             LapStep::Going(motion) => TaskStatus::Go(motion),
             LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
             LapStep::Over(reason) => {
