@@ -93,5 +93,6 @@ mod start;
 pub mod timer;
 pub mod uart;
 pub mod watchdog;
+mod word;
 
 pub use peripherals::Peripherals;

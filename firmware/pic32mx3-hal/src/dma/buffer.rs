@@ -1,13 +1,14 @@
 //! Memory that a channel can be given: it stays where it is, and nobody else has it meanwhile.
 
 use crate::cpu;
+use crate::word::RegisterWord;
 use core::cell::UnsafeCell;
 use core::fmt;
 use core::ptr::NonNull;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 /// What a channel moves: `u8`, `u16` or `u32`. Every pattern of bits is one.
-pub trait Element: sealed::Element + Copy + Default + Send + 'static {
+pub trait Element: RegisterWord + Send {
     /// The byte that it is; nothing when it is longer.
     #[doc(hidden)]
     fn to_byte(self) -> Option<u8>;
@@ -73,14 +74,12 @@ impl<W: Element> Lent<W> {
 }
 
 mod sealed {
-    pub trait Element {}
     pub trait Buffer {}
 }
 
 macro_rules! elements {
     ($($element:ty: $to_byte:expr;)*) => {
-        $(impl sealed::Element for $element {}
-        impl Element for $element {
+        $(impl Element for $element {
             fn to_byte(self) -> Option<u8> {
                 $to_byte(self)
             }

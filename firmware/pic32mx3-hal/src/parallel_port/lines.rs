@@ -2,6 +2,7 @@
 
 use super::{ActiveLevel, SELECT_1_HIGH, SELECT_2_HIGH};
 use crate::gpio::{Input, Output, Pin};
+use crate::word::RegisterWord;
 
 /// PMD0 to PMD7. The port turns them to outputs while it writes.
 pub type DataPins8 = (
@@ -31,40 +32,17 @@ pub type DataPins16 = (
 );
 
 /// What one access moves: `u8` or `u16`.
-pub trait BusWord: sealed::Sealed + Copy + Default + 'static {
+pub trait BusWord: RegisterWord {
     /// MODE16.
     #[doc(hidden)]
     const WIDTH: u32;
-    /// As the register has it.
-    #[doc(hidden)]
-    fn to_register(self) -> u32;
-    /// From what the register has.
-    #[doc(hidden)]
-    fn from_register(value: u32) -> Self;
 }
 
-mod sealed {
-    pub trait Sealed {}
+impl BusWord for u8 {
+    const WIDTH: u32 = 0;
 }
-
-macro_rules! words {
-    ($($word:ty: $width:expr;)*) => {
-        $(impl sealed::Sealed for $word {}
-        impl BusWord for $word {
-            const WIDTH: u32 = $width;
-            fn to_register(self) -> u32 {
-                u32::from(self)
-            }
-            fn from_register(value: u32) -> Self {
-                value as Self
-            }
-        })*
-    };
-}
-
-words! {
-    u8: 0;
-    u16: 1 << 10;
+impl BusWord for u16 {
+    const WIDTH: u32 = 1 << 10;
 }
 
 /// The data lines for words of one length.

@@ -19,6 +19,7 @@ use crate::cpu;
 use crate::gpio::{Input, Output, Pin};
 use crate::interrupt::Source;
 use crate::register::map::{spi_buffer, spi_control, spi_divider, spi_status};
+use crate::word::RegisterWord;
 use core::fmt;
 use embedded_hal::spi::{Mode, Phase, Polarity};
 
@@ -74,41 +75,20 @@ pub struct FrequencyError {
 }
 
 /// How many bits a word has: `u8`, `u16` or `u32`.
-pub trait Word: sealed::Sealed + Copy + Default + 'static {
+pub trait Word: RegisterWord {
     /// MODE16 and MODE32 of SPIxCON.
     #[doc(hidden)]
     const WIDTH: u32;
-    /// As the register has it.
-    #[doc(hidden)]
-    fn to_register(self) -> u32;
-    /// From what the register has.
-    #[doc(hidden)]
-    fn from_register(value: u32) -> Self;
 }
 
-mod sealed {
-    pub trait Sealed {}
+impl Word for u8 {
+    const WIDTH: u32 = 0;
 }
-
-macro_rules! words {
-    ($($word:ty: $width:expr;)*) => {
-        $(impl sealed::Sealed for $word {}
-        impl Word for $word {
-            const WIDTH: u32 = $width;
-            fn to_register(self) -> u32 {
-                u32::from(self)
-            }
-            fn from_register(value: u32) -> Self {
-                value as Self
-            }
-        })*
-    };
+impl Word for u16 {
+    const WIDTH: u32 = 1 << 10;
 }
-
-words! {
-    u8: 0;
-    u16: 1 << 10;
-    u32: 1 << 11;
+impl Word for u32 {
+    const WIDTH: u32 = 1 << 11;
 }
 
 /// The pin of a master's clock.
