@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, start_cleaning};
-use rvac_sim::{CalibrationChoice, GyroFitted, Household, Scene, SceneSettings};
+use rvac_sim::{CalibrationChoice, GyroFitted, Host, Household, Scene, SceneSettings};
 
 pub use draws::{Bounds, Draws};
 pub use phase::{household, in_phase};
@@ -125,4 +125,11 @@ pub fn cleaning(scene: &Scene, seed: u64) -> Household {
         "the host finds the robot"
     );
     household
+}
+
+/// Whether a line of the log contains this; the log is kept from [`Host::keep_log`] on.
+#[must_use]
+pub fn says(household: &Household, what: &str) -> bool {
+    let log = household.host().map_or(&[][..], Host::log);
+    log.iter().any(|entry| entry.text.contains(what))
 }

@@ -7,7 +7,7 @@ use rvac_sim::board_faults::{BoardFigures, campaign};
 use rvac_sim::log_pace::{Occupation, log_figures};
 use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{Host, Household};
-use scenarios::{relax, scene};
+use scenarios::{relax, says, scene};
 
 /// One of each kind, and each with a second fault that can have one.
 const SEEDS: u64 = 40;
@@ -50,11 +50,6 @@ fn systematic(household: &mut Household) {
     assert!(household.pass_until(60, cleans).is_some(), "it cleans");
     household.pass_ms(20_000);
     household.host_mut().expect("lives").keep_log();
-}
-
-fn says(household: &Household, what: &str) -> bool {
-    let log = household.host().map_or(&[][..], Host::log);
-    log.iter().any(|entry| entry.text.contains(what))
 }
 
 fn way_m(household: &Household) -> f64 {

@@ -3,7 +3,7 @@
 use brain::command::StrategyName;
 use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{household, scene, settings};
+use scenarios::{household, says, scene, settings};
 
 fn estimate(household: &Household) -> brain::PoseEstimate {
     household
@@ -13,17 +13,12 @@ fn estimate(household: &Household) -> brain::PoseEstimate {
         .estimate()
 }
 
-fn has_told(household: &Household, what: &str) -> bool {
-    let log = household.host().map_or(&[][..], Host::log);
-    log.iter().any(|entry| entry.text.contains(what))
-}
-
 /// Seconds until it tells this, an hour at most; it may not be lost meanwhile.
 fn until_told(household: &mut Household, what: &str) -> u32 {
     let told_s = (0..3_600).find(|_| {
         household.pass_ms(1_000);
         assert!(!estimate(household).lost, "lost in a home that it knows");
-        has_told(household, what)
+        says(household, what)
     });
     told_s.unwrap_or_else(|| panic!("{what} is never told"))
 }
