@@ -24,6 +24,11 @@ const PARAMETERS: CandidateParameters = CandidateParameters {
 
 /// Whether `pose` is at the best candidate, and no other one scores nearly as high.
 pub(super) fn is_alone(candidates: &[PoseCandidate], pose: Pose2) -> bool {
+    is_far_ahead(candidates, pose, PARAMETERS.ambiguous_share)
+}
+
+/// Whether `pose` is at the best candidate, and all others score less than a share of it.
+pub(super) fn is_far_ahead(candidates: &[PoseCandidate], pose: Pose2, share: f64) -> bool {
     let Some((best, others)) = candidates.split_first() else {
         return false;
     };
@@ -31,7 +36,7 @@ pub(super) fn is_alone(candidates: &[PoseCandidate], pose: Pose2) -> bool {
         && is_at(best, pose)
         && others
             .iter()
-            .all(|other| is_at(other, pose) || other.score < PARAMETERS.ambiguous_share * best.score)
+            .all(|other| is_at(other, pose) || other.score < share * best.score)
 }
 
 /// Whether `pose` is at any candidate.

@@ -159,6 +159,7 @@ impl MapCheck {
 #[cfg(test)]
 mod tests {
     use super::{BeamAgreement, ComparedBeam, MapCheck, MapDoubt, Surroundings};
+    use crate::localization::floor_blocks::FloorBlocks;
     use crate::model::geometry::Point2;
 
     /// A map with one wall along the x axis.
@@ -177,8 +178,12 @@ mod tests {
             true
         }
 
-        fn positions(&self) -> Vec<Point2> {
-            Vec::new()
+        fn clearance_around_m(&self, at: Point2, radius_m: f64) -> (f64, f64) {
+            (at.y_m.abs() - radius_m, at.y_m.abs() + radius_m)
+        }
+
+        fn floor_blocks(&self) -> FloorBlocks {
+            FloorBlocks::default()
         }
     }
 

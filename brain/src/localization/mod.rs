@@ -11,6 +11,7 @@ mod calibration;
 mod candidates;
 mod confidence;
 mod drift;
+mod floor_blocks;
 mod global_localizer;
 mod gyro_estimate;
 mod gyro_monitor;

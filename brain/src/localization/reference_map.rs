@@ -4,6 +4,7 @@
 //! The live map carries the error of the pose. A filter that compared with it would confirm its own errors, and walls and pose
 //! would drift together: in an experiment the robot was lost within half an hour.
 
+use super::floor_blocks::FloorBlocks;
 use super::particles::Surroundings;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, Map, Raster, StoredMap};
 use crate::model::geometry::Point2;
@@ -11,6 +12,8 @@ use crate::model::gradual::StepBudget;
 
 /// Cells between two candidate positions: 15 cm.
 const PLACE_CELLS: usize = 6;
+/// Cells of a block of candidate positions: 60 cm.
+const BLOCK_CELLS: usize = 4 * PLACE_CELLS;
 /// Least clearance of a candidate position, metres: the body's radius less a cell.
 const PLACE_CLEAR_M: f64 = 0.15;
 /// A cell is trustworthy when it was seen with at most this standard deviation of the pose, metres.
@@ -83,6 +86,17 @@ impl ReferenceMap {
         self.put_dock(map.dock_location());
     }
 
+    /// Middle of the cell in this column and row of the map, if the robot can be there.
+    fn place_at(&self, column: usize, row: usize) -> Option<Point2> {
+        let origin = self.knowledge.origin();
+        let cell = Cell {
+            x: origin.x.saturating_add(i32::try_from(column).ok()?),
+            y: origin.y.saturating_add(i32::try_from(row).ok()?),
+        };
+        let is_free = self.knowledge.get(cell) == Some(&CellKnowledge::Free);
+        (is_free && self.distance.cell_m(cell) >= PLACE_CLEAR_M).then(|| cell.middle())
+    }
+
     /// Pose of the robot when it is docked.
     pub(super) fn dock(&self) -> DockLocation {
         self.dock
@@ -108,24 +122,24 @@ impl Surroundings for ReferenceMap {
         known.is_some_and(|kind| *kind != CellKnowledge::Unknown)
     }
 
-    fn positions(&self) -> Vec<Point2> {
+    fn clearance_around_m(&self, at: Point2, radius_m: f64) -> (f64, f64) {
+        self.distance.around(at, radius_m)
+    }
+
+    fn floor_blocks(&self) -> FloorBlocks {
         let knowledge = &self.knowledge;
-        let origin = knowledge.origin();
-        let mut positions = Vec::new();
-        for row in (0..knowledge.height()).step_by(PLACE_CELLS) {
-            for column in (0..knowledge.width()).step_by(PLACE_CELLS) {
-                let cell = Cell {
-                    x: origin.x + i32::try_from(column).unwrap_or(i32::MAX),
-                    y: origin.y + i32::try_from(row).unwrap_or(i32::MAX),
-                };
-                if knowledge.get(cell) == Some(&CellKnowledge::Free)
-                    && self.distance.cell_m(cell) >= PLACE_CLEAR_M
-                {
-                    positions.push(cell.middle());
-                }
+        let mut blocks = FloorBlocks::default();
+        for row in (0..knowledge.height()).step_by(BLOCK_CELLS) {
+            for column in (0..knowledge.width()).step_by(BLOCK_CELLS) {
+                let rows = (row..row + BLOCK_CELLS).step_by(PLACE_CELLS);
+                let cells = rows.flat_map(|row| {
+                    let columns = (column..column + BLOCK_CELLS).step_by(PLACE_CELLS);
+                    columns.map(move |column| (column, row))
+                });
+                blocks.add(cells.filter_map(|(column, row)| self.place_at(column, row)));
             }
         }
-        positions
+        blocks
     }
 }
 

@@ -9,7 +9,7 @@
 use core::task::Poll;
 
 use super::TrackingCheckpoint;
-use super::candidates::is_alone;
+use super::candidates::is_far_ahead;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::odometry::Odometry;
 use super::reference_map::ReferenceMap;
@@ -32,7 +32,7 @@ struct FinderParameters {
     proven_share_min: f64,
     /// The last metres must match the winner's map with this score.
     winner_score_min: f64,
-    /// They may match the maps of the others with at most this share of it.
+    /// They may match other places, on this storey and the others, with at most this share of it.
     others_share_max: f64,
     /// Distance after an inconclusive second look until the next one, metres.
     look_again_m: f64,
@@ -104,6 +104,8 @@ struct StoreyHypothesis {
     reference_map: ReferenceMap,
     /// Distance since it found the robot, metres.
     proven_m: f64,
+    /// Second looks since then that were not clear, less those that were.
+    unclear_looks: u32,
 }
 
 impl StoreyFinder {
@@ -191,10 +193,11 @@ impl StoreyFinder {
         let all: Vec<Vec<PoseCandidate>> = looks.iter().filter_map(GlobalLocalizer::candidates).collect();
         self.second_look = None;
         self.looks_from_m = self.distance_m + PARAMETERS.look_again_m;
-        let winner = self.hypotheses.get(proven)?;
-        let place = is_clear(&all, proven, winner.tracker.estimate().pose).then(|| self.place_on(winner));
-        self.winner = place.map(|_| proven);
-        place
+        let proven_one = self.hypotheses.get_mut(proven)?;
+        let is_sure = proven_one.is_sure_after(is_clear(&all, proven, proven_one.tracker.estimate().pose));
+        self.winner = is_sure.then_some(proven);
+        let winner = self.hypotheses.get(self.winner?)?;
+        Some(self.place_on(winner))
     }
 
     fn step_search(&mut self) {
@@ -218,6 +221,7 @@ impl StoreyFinder {
                 tracker,
                 reference_map,
                 proven_m: 0.0,
+                unclear_looks: 0,
             });
             self.loading.pop();
         }
@@ -248,11 +252,23 @@ impl StoreyFinder {
 impl StoreyHypothesis {
     fn follow(&mut self, observation: &Observation, moved: MotionUpdate) {
         self.tracker.follow(&self.reference_map, observation, moved);
-        self.proven_m = if self.tracker.is_lost() {
-            0.0
+        if self.tracker.is_lost() {
+            (self.proven_m, self.unclear_looks) = (0.0, 0);
         } else {
-            self.proven_m + moved.advance.distance_m.abs()
-        };
+            self.proven_m += moved.advance.distance_m.abs();
+        }
+    }
+
+    /// Takes a second look. Whoever looks often enough sees what he wants to see once, so each look that was not clear must be made up
+    /// for by a clear one.
+    fn is_sure_after(&mut self, is_clear: bool) -> bool {
+        if !is_clear {
+            self.unclear_looks = self.unclear_looks.saturating_add(1);
+            return false;
+        }
+        let is_sure = self.unclear_looks == 0;
+        self.unclear_looks = self.unclear_looks.saturating_sub(1);
+        is_sure
     }
 
     fn is_proven(&self) -> bool {
@@ -274,7 +290,7 @@ fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
         return false;
     };
     let others = all.iter().enumerate().filter(|(place, _)| *place != winner);
-    is_alone(own, pose)
+    is_far_ahead(own, pose, PARAMETERS.others_share_max)
         && best(own) >= PARAMETERS.winner_score_min
         && others
             .into_iter()

@@ -12,6 +12,7 @@ use super::beacons::LocatedRange;
 use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
 use super::drift::{ODOMETRY_NOISE, turn_variance};
+use super::floor_blocks::FloorBlocks;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
@@ -447,7 +448,11 @@ impl<M: Surroundings> Surroundings for Whole<'_, M> {
         true
     }
 
-    fn positions(&self) -> Vec<Point2> {
-        self.0.positions()
+    fn clearance_around_m(&self, at: Point2, radius_m: f64) -> (f64, f64) {
+        self.0.clearance_around_m(at, radius_m)
+    }
+
+    fn floor_blocks(&self) -> FloorBlocks {
+        self.0.floor_blocks()
     }
 }

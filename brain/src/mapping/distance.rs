@@ -84,6 +84,27 @@ impl DistanceField {
         (below + (above - below) * up) * 1e-3
     }
 
+    /// Bounds of [`Self::at`] within a radius of a point, metres: nowhere is it less than the first, or more than the second. It changes
+    /// by at most a metre for each metre of way, but for the edge of the window.
+    #[must_use]
+    pub(crate) fn around(&self, point: Point2, radius_m: f64) -> (f64, f64) {
+        // Interpolation between cells can be steeper, by less than a cell in all.
+        let reach_m = radius_m + CELL_M;
+        let (origin, width, height) = self.window();
+        let x = AxisPlace::of(point.x_m, origin.x, width);
+        let y = AxisPlace::of(point.y_m, origin.y, height);
+        if x.inside_m.min(y.inside_m) < -reach_m {
+            return (FAR_M, FAR_M);
+        }
+        let here_m = self.at(Point2 {
+            x_m: x.nearest_m,
+            y_m: y.nearest_m,
+        });
+        let stays_inside = x.inside_m.min(y.inside_m) >= reach_m;
+        let greatest_m = if stays_inside { here_m + reach_m } else { FAR_M };
+        ((here_m - reach_m).min(FAR_M), greatest_m.min(FAR_M))
+    }
+
     /// Gradient along x and y at a point, metres per metre: it points away from the nearest obstacle, and is 0 far from all.
     #[must_use]
     pub fn gradient(&self, point: Point2) -> Point2 {
@@ -163,6 +184,26 @@ impl DistanceField {
     /// Bytes of the values.
     pub(super) fn memory_bytes(&self) -> usize {
         size_of_val(self.millimetres.values())
+    }
+}
+
+/// Where a coordinate is along the window of a field.
+#[derive(Clone, Copy, Debug)]
+struct AxisPlace {
+    /// The nearest coordinate between the middles of the first and the last cell, metres.
+    nearest_m: f64,
+    /// Distance from the nearer of these two, metres; negative outside of them.
+    inside_m: f64,
+}
+
+impl AxisPlace {
+    fn of(coordinate_m: f64, first: i32, cells: usize) -> Self {
+        let low_m = (f64::from(first) + 0.5) * CELL_M;
+        let high_m = low_m + (cells as f64 - 1.0) * CELL_M;
+        Self {
+            nearest_m: coordinate_m.max(low_m).min(high_m),
+            inside_m: (coordinate_m - low_m).min(high_m - coordinate_m),
+        }
     }
 }
 
@@ -330,5 +371,56 @@ impl Envelope {
         }
         self.columns.push(column);
         self.starts.push(f64::NEG_INFINITY);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::DistanceField;
+    use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
+    use crate::model::geometry::Point2;
+    use crate::model::random::Random;
+
+    /// A window with obstacles up to its edges.
+    fn field(random: &mut Random) -> DistanceField {
+        let mut knowledge = Raster::filled(Cell { x: -20, y: 10 }, 90, 70, CellKnowledge::Free);
+        for value in knowledge.values_mut() {
+            if random.between(0.0, 1.0) < 0.004 {
+                *value = CellKnowledge::Occupied;
+            }
+        }
+        DistanceField::new(&knowledge)
+    }
+
+    #[test]
+    fn no_value_around_a_point_is_out_of_its_bounds() {
+        let mut random = Random::new(5);
+        let mut narrow = 0;
+        for _ in 0..20 {
+            let field = field(&mut random);
+            for _ in 0..400 {
+                // From a metre outside of the window to a metre beyond it.
+                let middle = Point2 {
+                    x_m: random.between(-60.0, 110.0) * CELL_M,
+                    y_m: random.between(-30.0, 120.0) * CELL_M,
+                };
+                let radius_m = random.between(0.0, 0.5);
+                let (least_m, greatest_m) = field.around(middle, radius_m);
+                narrow += u32::from(greatest_m - least_m < 0.4);
+                for _ in 0..20 {
+                    let angle_rad = random.between(0.0, core::f64::consts::TAU);
+                    let away_m = random.between(0.0, radius_m);
+                    let value_m = field.at(Point2 {
+                        x_m: middle.x_m + away_m * libm::cos(angle_rad),
+                        y_m: middle.y_m + away_m * libm::sin(angle_rad),
+                    });
+                    assert!(
+                        (least_m..=greatest_m).contains(&value_m),
+                        "{value_m} is not in {least_m}..={greatest_m} within {radius_m} of {middle:?}"
+                    );
+                }
+            }
+        }
+        assert!(narrow > 1_000, "only {narrow} bounds of 8,000 say anything");
     }
 }
