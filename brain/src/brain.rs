@@ -233,6 +233,7 @@ impl Brain {
             start: self.pose(),
             config: &self.config,
             energy: &self.energy(),
+            charge: self.behavior.battery_charge(),
         };
         estimate(order, conditions)
     }

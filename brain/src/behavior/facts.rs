@@ -14,6 +14,8 @@ pub(crate) struct Facts {
     pub(crate) link_fault: Option<LinkFault>,
     pub(crate) wheel_drop: bool,
     pub(crate) docked: bool,
+    /// What the pack holds, 0..=1.
+    pub(crate) battery_charge: Option<f32>,
     pub(crate) battery_low: bool,
     pub(crate) charge_flow: Option<ChargeFlow>,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
@@ -62,6 +64,7 @@ impl Facts {
             link_up: observation.link_up,
             wheel_drop: observation.wheel_drop,
             docked: observation.docked,
+            battery_charge: observation.battery_charge,
             battery_low: observation
                 .battery_charge
                 .is_some_and(|charge| charge < battery_low),

@@ -7,7 +7,7 @@ use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
 use crate::model::edit_error::EditError;
-use crate::model::energy::{EnergyModel, time_to_return_s};
+use crate::model::energy::{EnergyModel, PackUse, time_to_return_s};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::job_refusal::JobRefusal;
@@ -22,9 +22,10 @@ pub struct JobEstimate {
     pub floor_m2: f64,
     /// Time, seconds.
     pub time_s: f64,
-    /// Share of a full charge that the job and the return to the dock take; above 1 when the robot must recharge in
-    /// between.
+    /// Share of a full charge that the job and the return to the dock take.
     pub charge: f64,
+    /// How often the robot must recharge in between, from what the pack holds now.
+    pub recharges: u32,
     /// Share of `floor_m2` that is expected to be swept, 0..=1.
     pub share: f64,
     /// The same if the pose is half as accurate as estimated.
@@ -39,6 +40,8 @@ pub(crate) struct JobConditions<'brain> {
     pub(crate) start: Pose2,
     pub(crate) config: &'brain BrainConfig,
     pub(crate) energy: &'brain EnergyModel,
+    /// What the pack holds, 0..=1; `None` = not known, and taken to be as much as after a recharge.
+    pub(crate) charge: Option<f64>,
 }
 
 /// What `order` takes under these conditions.
@@ -54,6 +57,7 @@ pub(crate) fn estimate(
         start,
         config,
         energy,
+        charge: held,
     } = conditions;
     map.admit_order(order)?;
     admit_reach(order, map, start.position(), config.body.radius_m)?;
@@ -92,16 +96,22 @@ pub(crate) fn estimate(
             EditError::NoMap.into()
         });
     }
-    let home_s = map.dock().map_or(0.0, |dock| {
-        time_to_return_s(
-            sum.pose.position().distance_m(dock.position()),
-            settings.cruise_m_per_s,
-        )
-    });
+    let home_m = map
+        .dock()
+        .map(|dock| sum.pose.position().distance_m(dock.position()));
+    let cruise_m_per_s = settings.cruise_m_per_s;
+    let home_s = home_m.map_or(0.0, |home_m| time_to_return_s(home_m, cruise_m_per_s));
+    let full = config.battery_charged;
+    let pack = PackUse {
+        held: held.unwrap_or(f64::from(full)),
+        recharged: f64::from(full),
+        least: energy.charge_to_return(home_m.unwrap_or_default(), cruise_m_per_s),
+    };
     Ok(JobEstimate {
         floor_m2: sum.floor_m2,
         time_s: sum.time_s,
         charge: energy.charge_for(sum.time_s, home_s),
+        recharges: pack.recharges(energy.charge_for(sum.time_s, 0.0)),
         share: sum.swept_m2 / sum.floor_m2,
         share_low: sum.swept_low_m2 / sum.floor_m2,
     })

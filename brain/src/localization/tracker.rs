@@ -196,12 +196,12 @@ impl Tracker {
         self.confidence.explained()
     }
 
-    /// Takes ranges to beacons whose positions are known.
     /// What the map predicts beside what was met.
     pub(super) const fn map_check(&self) -> &MapCheck {
         &self.map_check
     }
 
+    /// Takes ranges to beacons whose positions are known.
     pub(super) fn add_ranges(&mut self, ranges: &[LocatedRange]) {
         self.ranges.extend_from_slice(ranges);
     }

@@ -242,6 +242,24 @@ fn the_estimate_tells_charge_and_share() {
     assert!(estimates[1].share_low > estimates[0].share_low);
 }
 
+#[test]
+fn the_estimate_counts_recharges_from_what_the_pack_holds() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))], 3).unwrap();
+    let mut recharges_with = |charge| {
+        stage.world.observation.battery_charge = charge;
+        run(&mut stage.world, &mut stage.brain, None, 0.1);
+        stage.brain.estimate_order(&order).unwrap().recharges
+    };
+    assert_eq!(
+        recharges_with(None),
+        0,
+        "a pack that tells nothing is taken to be charged"
+    );
+    assert_eq!(recharges_with(Some(1.0)), 0);
+    assert_eq!(recharges_with(Some(0.2)), 1);
+}
+
 pub(crate) fn forbid(stage: &mut Stage, no_go: NoGo) {
     let adding = MapEdit::NoGo(NoGoEdit::Add(no_go));
     assert_eq!(stage.brain.map().admit(&adding), Ok(()));

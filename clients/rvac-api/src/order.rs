@@ -127,8 +127,11 @@ pub struct JobEstimate {
     pub floor_m2: f64,
     /// Time, seconds, without pauses for charging.
     pub time_s: f64,
-    /// Share of a full battery that the job and the drive home take; above 1 the robot must charge in between.
+    /// Share of a full battery that the job and the drive home take.
     pub charge: f64,
+    /// How often the robot must charge in between, from what the battery holds now.
+    #[serde(default)]
+    pub recharges: u32,
     /// Share of `floor_m2` that is expected to be swept, 0..1.
     pub share: f64,
     /// The same if the true position error is twice the estimated one.

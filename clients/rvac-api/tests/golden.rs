@@ -744,12 +744,13 @@ fn orders() {
         floor_m2: 12.5,
         time_s: 900.0,
         charge: 0.25,
+        recharges: 2,
         share: 0.975,
         share_low: 0.875,
     };
     check(
         &Update::JobEstimate(estimate),
-        r#"{"e":"job-estimate","id":4,"floor_m2":12.5,"time_s":900.0,"charge":0.25,"share":0.975,"share_low":0.875}"#,
+        r#"{"e":"job-estimate","id":4,"floor_m2":12.5,"time_s":900.0,"charge":0.25,"recharges":2,"share":0.975,"share_low":0.875}"#,
     );
 }
 

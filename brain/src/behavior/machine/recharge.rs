@@ -25,6 +25,14 @@ impl Behavior {
         self.energy.model()
     }
 
+    /// What the pack holds, 0..=1.
+    pub(crate) fn battery_charge(&self) -> Option<f64> {
+        self.facts
+            .battery_charge
+            .map(f64::from)
+            .filter(|charge| charge.is_finite())
+    }
+
     /// Starts with what was learnt earlier.
     pub(crate) fn learn_energy(&mut self, model: EnergyModel) {
         self.energy = EnergyLearner::of(model);

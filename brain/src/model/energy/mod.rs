@@ -133,6 +133,31 @@ impl EnergyModel {
     }
 }
 
+/// What a job may take of the pack before the robot must drive home, as shares of the full charge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PackUse {
+    /// What it holds before the job.
+    pub(crate) held: f64,
+    /// What it holds after a recharge.
+    pub(crate) recharged: f64,
+    /// With what it turns home.
+    pub(crate) least: f64,
+}
+
+impl PackUse {
+    /// How often a job that takes `charge` must recharge.
+    pub(crate) fn recharges(self, charge: f64) -> u32 {
+        let beyond = charge - (self.held - self.least).max(0.0);
+        let portion = (self.recharged - self.least).max(PARAMETERS.reserve);
+        // A share of a charge that is not a number is as good as none.
+        if beyond > 0.0 {
+            libm::ceil(beyond / portion) as u32
+        } else {
+            0
+        }
+    }
+}
+
 /// Time to return over `path_m` metres, including docking, seconds.
 pub(crate) fn time_to_return_s(path_m: f64, cruise_m_per_s: f64) -> f64 {
     PARAMETERS.path_time_factor * path_m / cruise_m_per_s.max(0.05) + PARAMETERS.approach_s
@@ -218,7 +243,7 @@ impl EnergyLearner {
 
 #[cfg(test)]
 mod tests {
-    use super::{Activity, EnergyLearner, EnergyModel, RemainingWork};
+    use super::{Activity, EnergyLearner, EnergyModel, PackUse, RemainingWork};
     use crate::model::config::BrainConfig;
 
     #[test]
@@ -284,6 +309,25 @@ mod tests {
         let checked = wild.checked();
         assert_eq!(checked.cleaning_per_s, EnergyModel::default().cleaning_per_s);
         assert!(checked.driving_per_s < 1e-3 && checked.seen_s == 0.0);
+    }
+
+    #[test]
+    fn a_job_recharges_as_often_as_its_portions_need() {
+        let pack = |held| PackUse {
+            held,
+            recharged: 0.9,
+            least: 0.1,
+        };
+        let recharges = |charges: [f64; 5], held| charges.map(|charge| pack(held).recharges(charge));
+        let charges = [0.2, 0.79, 0.81, 1.7, 4.0];
+        assert_eq!(recharges(charges, 0.9), [0, 0, 1, 2, 4]);
+        assert_eq!(
+            recharges(charges, 0.4),
+            [0, 1, 1, 2, 5],
+            "less than after a recharge"
+        );
+        assert_eq!(recharges(charges, 0.05)[0], 1, "it would turn home at once");
+        assert_eq!(pack(0.9).recharges(f64::NAN), 0);
     }
 
     #[test]

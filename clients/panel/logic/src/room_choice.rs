@@ -353,16 +353,16 @@ pub(crate) fn middle_of(corners: &[[f64; 2]]) -> [f64; 2] {
 #[must_use]
 pub fn job_estimate_text(words: &Words, estimate: &JobEstimate) -> String {
     let charge = words.number(100.0 * estimate.charge.max(0.0), 0);
-    let pauses = if estimate.charge > 1.0 {
-        words.map.pauses
-    } else {
-        ""
+    let recharges = match estimate.recharges {
+        0 => String::new(),
+        1 => words.map.one_recharge.to_owned(),
+        times => words.map.recharges.fill([&times]),
     };
     words.map.prospect.fill([
         &area_text(words, estimate.floor_m2),
         &words.number((estimate.time_s / 60.0).ceil(), 0),
         &words.unit.percent.fill([&charge]),
-        &pauses,
+        &recharges,
         &percent_text(words, estimate.share),
         &percent_text(words, estimate.share_low),
     ])
@@ -560,13 +560,14 @@ mod tests {
             floor_m2: 18.2,
             time_s: 1450.0,
             charge: 1.2,
+            recharges: 2,
             share: 0.974,
             share_low: 0.91,
             ..JobEstimate::default()
         };
         let text = job_estimate_text(ENGLISH, &estimate);
         assert!(
-            text.starts_with("18.2\u{a0}m², about 25\u{a0}min, 120\u{a0}% of a full battery, with pauses to charge; expected coverage 97\u{a0}%"),
+            text.starts_with("18.2\u{a0}m², about 25\u{a0}min, 120\u{a0}% of a full battery, with 2 pauses to charge; expected coverage 97\u{a0}%"),
             "{text}"
         );
     }

@@ -49,10 +49,10 @@ pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
 }
 
 fn in_words(estimate: &JobEstimate) -> String {
-    let charging = if estimate.charge > 1.0 {
-        ", so it will charge in between"
-    } else {
-        ""
+    let charging = match estimate.recharges {
+        0 => String::new(),
+        1 => ", so it will charge once in between".to_owned(),
+        times => format!(", so it will charge {times} times in between"),
     };
     format!(
         "floor     {:.1} m2\ntime      about {:.0} min\nbattery   {:.0} % of a full one, with the way home{charging}\n\
@@ -140,13 +140,14 @@ mod tests {
             floor_m2: 31.42,
             time_s: 2_410.0,
             charge: 1.2,
+            recharges: 1,
             share: 0.978,
             share_low: 0.91,
         };
         assert_eq!(
             in_words(&estimate),
             "floor     31.4 m2\ntime      about 41 min\nbattery   120 % of a full one, with the way home, so it will \
-             charge in between\ncoverage  about 98 %; 91 % if the position is half as accurate as estimated\n"
+             charge once in between\ncoverage  about 98 %; 91 % if the position is half as accurate as estimated\n"
         );
     }
 }

@@ -286,6 +286,7 @@ fn at_home(request: &Request) -> Vec<Update> {
             floor_m2: 4.0,
             time_s: 300.0,
             charge: 0.25,
+            recharges: 0,
             share: 0.98,
             share_low: 0.9,
         })],

@@ -65,6 +65,7 @@ pub(crate) fn estimate(
         floor_m2: found.floor_m2,
         time_s: found.time_s,
         charge: found.charge,
+        recharges: found.recharges,
         share: found.share,
         share_low: found.share_low,
     }))

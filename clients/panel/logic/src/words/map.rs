@@ -101,9 +101,10 @@ screen! {
         clean_selected: "Clean selected", "Korista valitud";
         times[1]: "{0}x", "{0}x";
         how_often: "How often each of them is cleaned", "Mitu korda igaüht koristatakse";
-        // Floor, minutes, charge, pauses, share, low share.
+        // Floor, minutes, charge, recharges, share, low share.
         prospect[6]: "{0}, about {1} min, {2} of a full battery{3}; expected coverage {4}, or {5} if the position is less accurate than estimated",
             "{0}, umbes {1} min, {2} täis akust{3}; eeldatavalt koristatakse {4}, või {5}, kui asukoht on hinnatust ebatäpsem";
-        pauses: ", with pauses to charge", ", laadimispausidega";
+        one_recharge: ", with one pause to charge", ", ühe laadimispausiga";
+        recharges[1]: ", with {0} pauses to charge", ", {0} laadimispausiga";
     }
 }
