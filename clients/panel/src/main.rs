@@ -46,6 +46,7 @@ mod tabs;
 mod theme;
 mod toasts;
 mod wall_clock;
+mod whole_home_view;
 mod why_view;
 
 fn main() {

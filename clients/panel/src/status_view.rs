@@ -14,6 +14,7 @@ use crate::language::words;
 use crate::news::SilenceView;
 use crate::store::Store;
 use crate::summary_view::SummaryView;
+use crate::whole_home_view::WholeHomeView;
 
 /// A robot that has driven less stands still yet, metres.
 const DRIVEN_M: f64 = 0.05;
@@ -56,6 +57,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
             <StandstillView store />
             <Lately store />
             <SummaryView store />
+            <WholeHomeView store />
             <Show when=move || rests.get()>
                 <PatternChoice store />
             </Show>

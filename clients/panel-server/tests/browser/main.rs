@@ -335,8 +335,13 @@ async fn clean_one_room(browser: &Browser, shots: &str) {
     browser
         .until("return document.querySelectorAll('#rooms .choose').length > 1")
         .await;
+    browser.says("whole-home", "of a full battery").await;
+    browser.shot(&format!("{shots}-before-the-start")).await;
     browser.click("#rooms .choose").await;
     assert_eq!(browser.text(CHOSEN).await, "1");
+    browser
+        .until("return document.getElementById('whole-home') === null")
+        .await;
     browser.says("prospect", "of a full battery").await;
     browser.shot(&format!("{shots}-room-chosen")).await;
     browser.click("#manner summary").await;

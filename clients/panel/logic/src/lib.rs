@@ -120,7 +120,7 @@ pub use primary::{Primary, Wishes};
 pub use qr::QrPicture;
 pub use reshape::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Outline, Reshape, Reshaped, Target};
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
-pub use room_choice::{DrawnPart, PASSES_MAX, RoomChoice, job_estimate_text, room_at};
+pub use room_choice::{DrawnPart, PASSES_MAX, RoomChoice, job_estimate_text, room_at, whole_home_text};
 pub use room_settings::{PowerPart, pattern_text, room_settings_text};
 pub use schedule_form::ScheduleForm;
 pub use schedule_rows::{

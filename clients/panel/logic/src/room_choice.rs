@@ -352,20 +352,41 @@ pub(crate) fn middle_of(corners: &[[f64; 2]]) -> [f64; 2] {
 /// place than it believes`
 #[must_use]
 pub fn job_estimate_text(words: &Words, estimate: &JobEstimate) -> String {
+    let [floor, minutes, charge, recharges] = job_takes(words, estimate);
+    words.map.prospect.fill([
+        &floor,
+        &minutes,
+        &charge,
+        &recharges,
+        &percent_text(words, estimate.share),
+        &percent_text(words, estimate.share_low),
+    ])
+}
+
+/// `The whole home: 52.4 m², about 74 min, 118 % of a full battery, with one pause to charge.`
+#[must_use]
+pub fn whole_home_text(words: &Words, estimate: &JobEstimate) -> String {
+    let [floor, minutes, charge, recharges] = job_takes(words, estimate);
+    words
+        .status
+        .whole_home
+        .fill([&floor, &minutes, &charge, &recharges])
+}
+
+/// Floor, minutes, charge and recharges of a job.
+fn job_takes(words: &Words, estimate: &JobEstimate) -> [String; 4] {
     let charge = words.number(100.0 * estimate.charge.max(0.0), 0);
     let recharges = match estimate.recharges {
         0 => String::new(),
         1 => words.map.one_recharge.to_owned(),
         times => words.map.recharges.fill([&times]),
     };
-    words.map.prospect.fill([
-        &area_text(words, estimate.floor_m2),
-        &words.number((estimate.time_s / 60.0).ceil(), 0),
-        &words.unit.percent.fill([&charge]),
-        &recharges,
-        &percent_text(words, estimate.share),
-        &percent_text(words, estimate.share_low),
-    ])
+    [
+        area_text(words, estimate.floor_m2),
+        words.number((estimate.time_s / 60.0).ceil(), 0),
+        words.unit.percent.fill([&charge]),
+        recharges,
+    ]
 }
 
 /// The room under a place of the map.
@@ -392,7 +413,7 @@ pub fn room_at(home: &HomeView, place: MapPoint) -> Option<u16> {
 
 #[cfg(test)]
 mod tests {
-    use super::{JobSettings, RoomChoice, job_estimate_text, room_at};
+    use super::{JobSettings, RoomChoice, job_estimate_text, room_at, whole_home_text};
     use crate::MapPoint;
     use crate::words::{Language, Words};
     use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape, PlaceShape, PlaceView};
@@ -552,6 +573,22 @@ mod tests {
             assert_eq!(room_at(&home, MapPoint::new(x, y)), room, "{x} {y}");
         }
         assert_eq!(room_at(&HomeView::default(), MapPoint::default()), None);
+    }
+
+    #[test]
+    fn the_whole_home_is_told_before_the_start() {
+        let estimate = |recharges| JobEstimate {
+            floor_m2: 52.4,
+            time_s: 4_401.0,
+            charge: 1.18,
+            recharges,
+            ..JobEstimate::default()
+        };
+        assert_eq!(
+            whole_home_text(ENGLISH, &estimate(1)),
+            "The whole home: 52.4\u{a0}m², about 74\u{a0}min, 118\u{a0}% of a full battery, with one pause to charge."
+        );
+        assert!(whole_home_text(ENGLISH, &estimate(0)).ends_with("of a full battery."));
     }
 
     #[test]

@@ -4,9 +4,9 @@ use leptos::prelude::*;
 use panel_logic::{
     Drawn, Edit, Forbidden, MapPoint, NoGoRow, PlaceRow, Reshape, RoomChangeRow, RoomChoice, Sketch, Tool,
     dock_text, job_estimate_text, joinable, known_dock, no_go_rows, place_rows, refusal_text,
-    room_change_rows,
+    room_change_rows, whole_home_text,
 };
-use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
+use rvac_api::{Failure, HomeView, JobEstimate, JobOrder, RequestBody};
 
 use super::MapHandle;
 use super::scene::Ground;
@@ -39,7 +39,10 @@ pub(crate) struct Orders {
     pub(crate) dock: RwSignal<Option<&'static str>>,
     /// How the rooms were split and joined.
     pub(crate) room_changes: RwSignal<Vec<RoomChangeRow>>,
+    /// What the whole home takes; nothing where the robot does not know it, or works.
+    pub(crate) whole_home: RwSignal<Option<String>>,
     asked: StoredValue<u32>,
+    asked_for_whole_home: StoredValue<u32>,
 }
 
 impl Orders {
@@ -54,7 +57,9 @@ impl Orders {
             places: RwSignal::new(Vec::new()),
             dock: RwSignal::new(None),
             room_changes: RwSignal::new(Vec::new()),
+            whole_home: RwSignal::new(None),
             asked: StoredValue::new(FIRST_ESTIMATE),
+            asked_for_whole_home: StoredValue::new(FIRST_ESTIMATE),
         }
     }
 
@@ -77,6 +82,8 @@ impl Orders {
     pub(crate) fn on_estimate(self, estimate: &JobEstimate) {
         if estimate.id == Some(self.asked.get_value()) {
             self.prospect.set(Some(job_estimate_text(words(), estimate)));
+        } else if estimate.id == Some(self.asked_for_whole_home.get_value()) {
+            self.whole_home.set(Some(whole_home_text(words(), estimate)));
         }
     }
 
@@ -86,18 +93,16 @@ impl Orders {
         if is_newest {
             self.prospect
                 .set(Some(refusal_text(words(), &failure.reason, &failure.text)));
+        } else if failure.id == Some(self.asked_for_whole_home.get_value()) {
+            self.whole_home.set(None);
         }
         is_newest || failure.id.is_some_and(|id| id >= FIRST_ESTIMATE)
     }
 
     /// Number of the next request for an estimate.
     fn next_number(self) -> u32 {
-        self.asked
-            .try_update_value(|number| {
-                *number = number.wrapping_add(1).max(FIRST_ESTIMATE);
-                *number
-            })
-            .unwrap_or(FIRST_ESTIMATE)
+        let last = self.asked.get_value().max(self.asked_for_whole_home.get_value());
+        last.wrapping_add(1).max(FIRST_ESTIMATE)
     }
 }
 
@@ -208,8 +213,16 @@ impl Store {
         self.orders.prospect.set(None);
         if let Some(order) = self.orders.choice.with_untracked(panel_logic::RoomChoice::order) {
             let number = self.orders.next_number();
+            self.orders.asked.set_value(number);
             self.ask_as(number, RequestBody::Estimate(order));
         }
+    }
+
+    /// Asks what cleaning the whole home takes.
+    pub(crate) fn ask_whole_home(self) {
+        let number = self.orders.next_number();
+        self.orders.asked_for_whole_home.set_value(number);
+        self.ask_as(number, RequestBody::Estimate(JobOrder::default()));
     }
 
     /// Rooms and what is forbidden are visible on the robot's map, not on the floor plan of a simulator.

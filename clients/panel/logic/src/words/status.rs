@@ -6,6 +6,9 @@ screen! {
     /// The card with the state, and the figures of the job.
     StatusWords {
         ready_to_clean: "Ready to clean.", "Valmis koristama.";
+        // Floor, minutes, charge, recharges.
+        whole_home[4]: "The whole home: {0}, about {1} min, {2} of a full battery{3}.",
+            "Kogu kodu: {0}, umbes {1} min, {2} täis akust{3}.";
         beeps: "It beeps before its wheels turn.", "Robot annab enne liikumist helisignaali.";
         waits_for_resume: "The job waits until you resume it.", "Töö ootab, kuni seda jätkad.";
         in_control[1]: "In control: {0}.", "Juhib: {0}.";
