@@ -207,7 +207,7 @@ fn a_real_board_is_looked_at_without_harm() {
 fn a_gyro_that_is_configured_must_be_there_and_answer() {
     const SENSOR: &str = "sys/bus/iio/devices/iio:device0";
     let folder = pi_zero();
-    let configuration = "link = \"/dev/serial0\"\n[imu]\ndevice = \"mpu6050\"\nup = \"-y\"\n";
+    let configuration = "link = \"uart:/dev/serial0\"\n[imu]\ndevice = \"mpu6050\"\nup = \"-y\"\n";
     put(&folder, "etc/vthal.toml", configuration);
     let told = |cause: &str| vec![("gyro", Grade::Fault, cause.to_owned())];
     assert_eq!(
