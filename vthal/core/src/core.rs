@@ -174,9 +174,8 @@ impl Core {
             Input::MapRestored { floor, number, home } => {
                 let kept = FloorHome { floor, home };
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                let restored = RestoredMap { number, kept };
-                self.floors
-                    .map_restored(&restored, self.brain_session.as_mut(), &mut teller);
+                let (restored, session) = (RestoredMap { number, kept }, self.brain_session.as_mut());
+                self.floors.map_restored(&restored, session, &mut teller);
             }
             Input::FloorsKept { task, floors, made } => {
                 let task = &task;
