@@ -14,6 +14,7 @@ use tokio::sync::mpsc::{Receiver, Sender};
 use tokio::sync::watch;
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
+use vthal_core::schedule::ZoneReading;
 use vthal_core::{ClientId, Core, Delivery, Input, LineHolder, Outputs, Recipients};
 
 use calibrating::CalibrationSession;
@@ -105,7 +106,9 @@ impl Daemon {
     }
 
     /// Runs until a signal ends it: the wheels have stopped (or their time for it is over), and everything is on disk.
-    pub(crate) async fn run(mut self) {
+    /// The system's time zone is `zone` at the start: schedules need it before the first clock.
+    pub(crate) async fn run(mut self, zone: ZoneReading) {
+        self.handle(Input::SystemZone(zone));
         while !self.is_over() {
             self.poll_wall_clock();
             let event = self.next_event().await;
@@ -163,6 +166,7 @@ impl Daemon {
             Event::Imu(event) => self.take_imu(event),
             Event::Board(event) => self.take_board(event),
             Event::Radio(event) => self.take_radio(event),
+            Event::Zone(zone) => self.handle(Input::SystemZone(zone)),
             Event::Connected(stream) => self.connect(stream),
             Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
             Event::ClientWritable(client) => {

@@ -3,6 +3,7 @@
 use robot_link::Abilities;
 use rvac_api::Run;
 use tokio::net::UnixStream;
+use vthal_core::schedule::ZoneReading;
 use vthal_core::{ClientId, LinkLoss};
 
 use crate::archive_desk::ArchiveAnswer;
@@ -40,6 +41,8 @@ pub(crate) enum Event {
     Board(BoardEvent),
     /// From the radio of the Linux board.
     Radio(RadioEvent),
+    /// The system's time zone has changed.
+    Zone(ZoneReading),
     /// What came of an order for the kept maps.
     Maps(MapAnswer),
     /// What came of an order for the floors.

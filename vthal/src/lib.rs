@@ -44,6 +44,7 @@ mod service;
 mod socket;
 mod systemd;
 mod told_lines;
+mod zone;
 
 pub use clock::Clock;
 pub use kept_store::KeptStore;

@@ -1,7 +1,6 @@
 //! Puts the daemon together and runs it.
 
 use std::io::{self, Write};
-use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use robot_link::{LinkAddress, UartAddress};
@@ -9,7 +8,6 @@ use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
 use vthal_core::device::{Make, cordlib};
-use vthal_core::schedule::Zone;
 use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, LineHolder, Recording};
 
 use crate::clock::Clock;
@@ -23,7 +21,7 @@ use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFacts, RobotFileError};
 use crate::socket::{self, SocketError};
 use crate::told_lines::CORE_LINES;
-use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
+use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd, zone};
 
 /// Make of the robot that this daemon serves.
 const MAKE: Make = cordlib::MAKE;
@@ -94,6 +92,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         clients_max: config.clients_max,
         told,
     };
+    let zone = zone::start(event_sender.clone())?;
     watch_signals(&event_sender)?;
     systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
@@ -126,7 +125,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
     let daemon = Daemon::new(Core::new(core_config), Clock::start(speed), wiring);
     // As a task among its own kind: what the link's task wakes runs in the same round of the scheduler, without a
     // poll the system in between.
-    Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
+    Ok(spawn_local(daemon.run(zone)).await.map_err(io::Error::other)?)
 }
 
 /// Settings of the core, with what is kept in the state folder, and what is wrong with that.
@@ -135,16 +134,8 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
         Some(path) => robot_file::load(path)?,
         None => RobotFacts::default(),
     };
-    let variable = std::env::var("TZ").ok();
-    let found = system_zone::find(Path::new("/"), variable, |name| Zone::named(name).is_some());
-    let zone = found
-        .name
-        .as_deref()
-        .and_then(Zone::named)
-        .unwrap_or_else(Zone::utc);
     let mut core_config = kept.fill(CoreConfig {
         make: MAKE,
-        zone,
         sensors: robot.sensors,
         calibration: robot.calibration,
         seed: config.seed.unwrap_or_else(seed_from_clock),
@@ -164,9 +155,7 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
         version: env!("CARGO_PKG_VERSION").to_owned(),
         ..CoreConfig::default()
     });
-    core_config
-        .complaints
-        .splice(..0, complaints.into_iter().chain(found.complaint));
+    core_config.complaints.splice(..0, complaints);
     for complaint in &core_config.complaints {
         tracing::error!(target: CORE_LINES, part = "vthal", "{complaint}");
     }

@@ -21,7 +21,7 @@ pub(crate) fn report(root: &Path, urls: Vec<String>) -> SystemReport {
         urls,
         networks: networks(),
         clock_s: since.map_or(0, |since| since.as_secs().cast_signed()),
-        zone: system_zone::find(root, None, known).name,
+        zone: system_zone::find(root, None, known).name.ok(),
         disk: disk(root),
         // A service may be kept from the first, and then knows at least the sum.
         memory_bytes: of_memory("MemTotal")

@@ -5,8 +5,9 @@ use robot::RobotSettings;
 use rvac_api::{JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduledJob};
 use rvac_sim::daily::{MIDNIGHT_S, daily_job};
 use rvac_sim::{Host, Household};
-use scenarios::{household, in_phase, scene, settings};
-use vthal_core::{CoreConfig, KeptFloor};
+use scenarios::{household, in_phase, says, scene, settings};
+use vthal_core::schedule::ZoneReading;
+use vthal_core::{CoreConfig, Input, KeptFloor};
 
 const DAY_S: i64 = 24 * 3_600;
 /// Handshake and description.
@@ -196,6 +197,135 @@ fn nothing_starts_while_the_clock_is_not_set() {
     let schedules = host(&mut household).schedules();
     assert_eq!((schedules.clock, schedules.decisions.len()), (None, 0));
     assert_eq!(state(&household), "docked");
+}
+
+/// The system says this of its time zone: a name, or why there is none.
+fn read_zone(household: &mut Household, name: Result<&str, &str>) {
+    let reading = ZoneReading {
+        name: name.map(str::to_owned).map_err(str::to_owned),
+        tried: None,
+        wrong_variable: None,
+    };
+    let now_us = household.now_us();
+    host(household).handle(now_us, Input::SystemZone(reading));
+}
+
+fn zone(household: &mut Household) -> String {
+    host(household).schedules().zone
+}
+
+/// How often the log says this.
+fn times_said(household: &mut Household, what: &str) -> usize {
+    let lines = host(household).log().iter();
+    lines.filter(|line| line.text.contains(what)).count()
+}
+
+#[test]
+fn a_zone_that_is_changed_while_the_host_runs_moves_schedules_and_quiet_hours() {
+    let mut household = waiting(&[entry("Morning", "08:00"), entry("Quiet", "13:30")]);
+    host(&mut household).keep_log();
+    read_zone(&mut household, Ok("Europe/Tallinn"));
+    assert_eq!(
+        times_said(&mut household, "zone"),
+        0,
+        "it is the zone of the start"
+    );
+    household.ask(RequestBody::SetQuiet {
+        quiet: Some(QuietHours {
+            from: "13:00".to_owned(),
+            to: "15:00".to_owned(),
+        }),
+    });
+    set_clock(&mut household, 3_600);
+    household.pass_ms(2_000);
+    read_zone(&mut household, Ok("Asia/Kolkata"));
+    assert!(says(
+        &household,
+        "the system's time zone changed from Europe/Tallinn to Asia/Kolkata (zone-changed)"
+    ));
+    let shown = host(&mut household).schedules();
+    assert_eq!(shown.clock.as_deref(), Some("2026-11-23T06:29"));
+    assert_eq!(shown.next[0].at, "2026-11-23T08:00:00+05:30");
+    meet(&mut household, (2, 30));
+    assert_eq!(last(&mut household), told("Morning", "fired", None));
+    household.ask(RequestBody::Stop);
+    meet(&mut household, (6, 0));
+    assert_eq!(
+        host(&mut household).schedules().decisions.len(),
+        1,
+        "eight o'clock in the zone of before is no time of an entry"
+    );
+    meet(&mut household, (8, 0));
+    assert_eq!(last(&mut household), told("Quiet", "quiet-hours", None));
+}
+
+#[test]
+fn a_zone_that_is_changed_makes_up_for_nothing() {
+    let late = ScheduleEntry {
+        late_min: 720,
+        ..entry("Morning", "08:00")
+    };
+    let mut household = waiting(&[]);
+    read_zone(&mut household, Ok("America/New_York"));
+    household.ask(RequestBody::AddSchedule(late));
+    set_clock(&mut household, 6 * 3_600);
+    household.pass_ms(2_000);
+    // There it is half past eleven: the run of eight o'clock would be late, and was never to be.
+    read_zone(&mut household, Ok("Asia/Kolkata"));
+    household.pass_ms(30_000);
+    assert_eq!(host(&mut household).schedules().decisions, []);
+    assert_eq!(state(&household), "docked");
+}
+
+#[test]
+fn a_zone_that_cannot_be_told_any_more_stays_and_is_named() {
+    let mut household = waiting(&[entry("Morning", "08:00")]);
+    host(&mut household).keep_log();
+    read_zone(&mut household, Ok("Europe/Tallinn"));
+    for _ in 0..3 {
+        read_zone(&mut household, Err("there is no /etc/localtime"));
+    }
+    assert_eq!(zone(&mut household), "Europe/Tallinn");
+    assert_eq!(
+        times_said(
+            &mut household,
+            "(zone-unknown): there is no /etc/localtime; schedules are in Europe/Tallinn"
+        ),
+        1
+    );
+    read_zone(&mut household, Ok("Europe/Tallinn"));
+    assert!(says(
+        &household,
+        "the system says its time zone again, Europe/Tallinn"
+    ));
+    read_zone(&mut household, Ok("Moon/Tranquility"));
+    assert_eq!(zone(&mut household), "Europe/Tallinn");
+    assert!(says(
+        &household,
+        "(zone-unknown): there is no time zone Moon/Tranquility"
+    ));
+}
+
+#[test]
+fn schedules_that_have_a_zone_of_their_own_stay_in_it() {
+    let mut household = waiting(&[entry("Morning", "08:00")]);
+    host(&mut household).keep_log();
+    read_zone(&mut household, Ok("Europe/Tallinn"));
+    household.ask(RequestBody::SetZone {
+        zone: Some("Pacific/Auckland".to_owned()),
+    });
+    read_zone(&mut household, Ok("Asia/Kolkata"));
+    assert_eq!(zone(&mut household), "Pacific/Auckland");
+    assert!(says(
+        &household,
+        "to Asia/Kolkata (zone-changed); schedules stay in Pacific/Auckland"
+    ));
+    household.ask(RequestBody::SetZone { zone: None });
+    assert_eq!(
+        zone(&mut household),
+        "Asia/Kolkata",
+        "and then follow the system's"
+    );
 }
 
 /// A room of the floor on which the robot is.

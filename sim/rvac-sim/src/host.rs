@@ -373,12 +373,30 @@ impl Host {
 
     /// The lines of its log that a client reads who comes now.
     pub fn read_log(&mut self, now_us: u64) -> Vec<LogEntry> {
+        let updates = self.read(now_us, Topic::Log).into_iter();
+        let lines = updates.filter_map(|update| match update {
+            Update::Log(entry) => Some(entry),
+            _ => None,
+        });
+        lines.collect()
+    }
+
+    /// The schedules that a client reads who comes now.
+    pub fn read_schedules(&mut self, now_us: u64) -> Option<Schedules> {
+        let updates = self.read(now_us, Topic::Schedules).into_iter();
+        let mut schedules = updates.filter_map(|update| match update {
+            Update::Schedules(schedules) => Some(schedules),
+            _ => None,
+        });
+        schedules.next()
+    }
+
+    /// What a client receives of a topic who comes now.
+    fn read(&mut self, now_us: u64, topic: Topic) -> Vec<Update> {
         let client = ClientId(u64::MAX);
         let request = Request {
             id: None,
-            body: RequestBody::Watch {
-                topics: vec![Topic::Log],
-            },
+            body: RequestBody::Watch { topics: vec![topic] },
         };
         let age_us = now_us - self.born_us;
         let mut read = Vec::new();
@@ -390,10 +408,7 @@ impl Host {
             self.core.handle(age_us, input, &mut self.outputs);
             self.pending.append(&mut self.outputs.link);
             let deliveries = self.outputs.deliveries.drain(..);
-            read.extend(deliveries.filter_map(|delivery| match delivery.update {
-                Update::Log(entry) => Some(entry),
-                _ => None,
-            }));
+            read.extend(deliveries.map(|delivery| delivery.update));
         }
         self.outputs.clear();
         read

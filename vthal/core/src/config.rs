@@ -10,7 +10,7 @@ use crate::device::{Make, cordlib};
 use crate::floors::KeptFloor;
 use crate::health::Health;
 use crate::learnt::Learnings;
-use crate::schedule::{Book, Zone};
+use crate::schedule::Book;
 
 /// Settings of the core, fixed for its life.
 #[derive(Clone, Debug)]
@@ -48,8 +48,6 @@ pub struct CoreConfig {
     pub health: Health,
     /// What robots have learnt of themselves, as it was kept.
     pub learnt: Learnings,
-    /// The time zone of the system.
-    pub zone: Zone,
     /// What was wrong with what was kept, one sentence each: the first lines of the log that clients see.
     pub complaints: Vec<String>,
     /// Number of the next run: higher than those of all that are kept.
@@ -75,7 +73,6 @@ impl Default for CoreConfig {
             schedules_distrusted: false,
             health: Health::default(),
             learnt: Learnings::default(),
-            zone: Zone::utc(),
             complaints: Vec::new(),
             next_run: 1,
         }

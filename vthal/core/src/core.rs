@@ -32,6 +32,7 @@ use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
+use crate::desk::system_zone::SystemZoneDesk;
 use crate::device::DeviceCommand;
 use crate::learnt::RobotRecord;
 use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outputs, RunEnd};
@@ -71,6 +72,7 @@ pub struct Core {
     home: HomeDesk,
     floors: FloorDesk,
     schedules: ScheduleDesk,
+    system_zone: SystemZoneDesk,
     history: HistoryDesk,
     health: HealthDesk,
     learnt: LearntDesk,
@@ -102,7 +104,8 @@ impl Core {
             inputs: InputDesk::default(),
             home: HomeDesk::default(),
             floors: FloorDesk::new(core::mem::take(&mut config.floors)),
-            schedules: ScheduleDesk::new(book, config.zone.clone(), config.schedules_distrusted),
+            schedules: ScheduleDesk::new(book, config.schedules_distrusted),
+            system_zone: SystemZoneDesk::default(),
             history: HistoryDesk::new(config.next_run),
             health: HealthDesk::new(core::mem::take(&mut config.health)),
             learnt: LearntDesk::new(core::mem::take(&mut config.learnt)),
@@ -163,6 +166,7 @@ impl Core {
                 self.audience.clients.forget(client);
             }
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
+            Input::SystemZone(reading) => self.set_system_zone(now_us, reading, outputs),
             Input::RecordingOpened { run, name } => self.history.recorded_as(run, name),
             Input::CalibrationOver => self.calibration.over(),
             Input::Wake => {}
@@ -170,9 +174,8 @@ impl Core {
             Input::MapRestored { floor, number, home } => {
                 let kept = FloorHome { floor, home };
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                let restored = RestoredMap { number, kept };
-                self.floors
-                    .map_restored(&restored, self.brain_session.as_mut(), &mut teller);
+                let (restored, session) = (RestoredMap { number, kept }, self.brain_session.as_mut());
+                self.floors.map_restored(&restored, session, &mut teller);
             }
             Input::FloorsKept { task, floors, made } => {
                 let task = &task;

@@ -4,6 +4,7 @@ use brain::StoredMap;
 use brain::observation::BeaconSignal;
 use rvac_api::{Failure, LogLevel, Request, Run};
 
+use crate::schedule::ZoneReading;
 use crate::{FloorTask, KeptFloor};
 
 /// A connected client, numbered by the shell; numbers are never reused.
@@ -88,6 +89,8 @@ pub enum Input<'a> {
         /// What it shows.
         utc_s: i64,
     },
+    /// What the system says of its time zone, before the first clock and when it has changed. Until then schedules are in UTC.
+    SystemZone(ZoneReading),
     /// The schedules of [`crate::Outputs::schedules`] are on the disk, or are not.
     SchedulesKept {
         /// Number of the order.

@@ -1,15 +1,21 @@
-//! The time zone of a Linux system, by its name: one rule for the daemon, which schedules by it, and for `rvac doctor`, which says
-//! whether it can be told. Which names there are is the caller's knowledge.
+//! The time zone of a Linux system, by its name: one rule for the daemon, which schedules by it and follows its changes, and for
+//! `rvac doctor`, which says whether it can be told. Which names there are is the caller's knowledge.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod watch;
+
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
+
+pub use watch::{LOOK_EVERY, ZoneWatch};
 
 /// Links that are followed: a link to a link is common, more than these are a circle.
 const LINKS_MAX: usize = 8;
 
 /// Where a system says in which zone it is.
+#[derive(Debug)]
 struct Sources {
     /// The environment's `TZ`.
     variable: Option<String>,
@@ -22,80 +28,134 @@ struct Sources {
 }
 
 /// What a system says.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SystemZone {
-    /// Name of the zone; none when it cannot be told.
-    pub name: Option<String>,
-    /// What people should know of how it was found, or why it was not.
-    pub complaint: Option<String>,
+    /// Name of the zone.
+    pub name: Result<String, Unnamed>,
+    /// The environment's `TZ`, if it is set and names no zone.
+    pub wrong_variable: Option<String>,
+}
+
+/// Why a system names no zone.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unnamed {
+    /// Nothing says a zone.
+    #[error("there is no {}", .0.display())]
+    NoFile(PathBuf),
+    /// A link leads nowhere.
+    #[error("{} is a link to {}, which is not there", .link.display(), .target.display())]
+    DanglingLink {
+        /// The last one.
+        link: PathBuf,
+        /// Where it leads, as it is written.
+        target: PathBuf,
+    },
+    /// Links lead to each other.
+    #[error("{} is a link in a circle", .0.display())]
+    Circle(PathBuf),
+    /// The file is none of a zone that is known.
+    #[error("{} is the file of no time zone that is known here", .0.display())]
+    OfNoZone(PathBuf),
+    /// The file cannot be read.
+    #[error("{} cannot be read: {reason}", .path.display())]
+    Unreadable {
+        /// Which.
+        path: PathBuf,
+        /// Why, by the system.
+        reason: String,
+    },
+}
+
+impl Unnamed {
+    /// The name that a link has in the place of a zone's.
+    #[must_use]
+    pub fn tried(&self) -> Option<&str> {
+        match self {
+            Self::DanglingLink { target, .. } => named_by(target),
+            _ => None,
+        }
+    }
 }
 
 /// The zone of the system below `root`, whose environment has this `TZ`. `is_known` tells whether a name is that of a zone.
 pub fn find(root: &Path, variable: Option<String>, is_known: impl Fn(&str) -> bool) -> SystemZone {
-    let sources = Sources {
-        variable: variable.filter(|text| !text.is_empty()),
-        localtime: root.join("etc/localtime"),
-        timezone: root.join("etc/timezone"),
-        zones: root.join("usr/share/zoneinfo"),
-    };
-    sources.zone(&is_known)
+    Sources::below(root, variable).zone(&is_known)
 }
 
 impl Sources {
-    fn zone(&self, is_known: &dyn Fn(&str) -> bool) -> SystemZone {
-        let mut complaint = None;
-        if let Some(variable) = &self.variable {
-            let name = variable.trim().trim_start_matches(':');
-            if is_known(name) {
-                return SystemZone {
-                    name: Some(name.to_owned()),
-                    complaint: None,
-                };
-            }
-            complaint = Some(format!("TZ is {variable:?}, which names no time zone"));
+    fn below(root: &Path, variable: Option<String>) -> Self {
+        Self {
+            variable,
+            localtime: root.join("etc/localtime"),
+            timezone: root.join("etc/timezone"),
+            zones: root.join("usr/share/zoneinfo"),
         }
+    }
+
+    fn zone(&self, is_known: &dyn Fn(&str) -> bool) -> SystemZone {
+        let variable = self.variable.as_deref().and_then(named_by_variable);
+        if let Some(name) = variable.filter(|name| is_known(name)) {
+            return SystemZone {
+                name: Ok(name.to_owned()),
+                wrong_variable: None,
+            };
+        }
+        SystemZone {
+            name: self.zone_of_files(is_known),
+            wrong_variable: variable.map(str::to_owned),
+        }
+    }
+
+    fn zone_of_files(&self, is_known: &dyn Fn(&str) -> bool) -> Result<String, Unnamed> {
         let written = kept_file::read_text(&self.timezone).ok();
         let written = written.as_deref().map(str::trim);
-        let found = self.linked(is_known).or_else(|| self.copied(written, is_known));
-        if found.is_some() {
-            return SystemZone {
-                name: found,
-                complaint: complaint.map(|text| format!("{text}: schedules follow the system's zone")),
-            };
+        let links = self.links();
+        if let Some(name) = linked(&links, is_known).or_else(|| self.copied(written, is_known)) {
+            return Ok(name);
         }
         // Only now: the name stays behind when somebody changes the link.
         if fs::symlink_metadata(&self.localtime).is_err()
             && let Some(name) = written.filter(|name| is_known(name))
         {
-            return SystemZone {
-                name: Some(name.to_owned()),
-                complaint,
-            };
+            return Ok(name.to_owned());
         }
-        let localtime = self.localtime.display();
-        let unknown = format!(
-            "{localtime} does not say in which time zone this computer is, so schedules are in UTC: set it with timedatectl set-timezone, or choose a zone with the schedules"
-        );
-        let told = complaint.map_or_else(|| unknown.clone(), |text| format!("{text}; {unknown}"));
-        SystemZone {
-            name: None,
-            complaint: Some(told),
-        }
+        Err(self.obstacle(links))
     }
 
-    /// The zone whose file the links lead to. Each link counts by its name, because the file at the end may be that of another
-    /// name: many zones are links themselves.
-    fn linked(&self, is_known: &dyn Fn(&str) -> bool) -> Option<String> {
+    /// The links from `/etc/localtime` on, each with where it leads.
+    fn links(&self) -> Vec<(PathBuf, PathBuf)> {
+        let mut links = Vec::new();
         let mut path = self.localtime.clone();
-        for _ in 0..LINKS_MAX {
-            let target = fs::read_link(&path).ok()?;
+        while links.len() < LINKS_MAX
+            && let Ok(target) = fs::read_link(&path)
+        {
             // A target is relative to the folder of its link; an absolute one takes the place of that.
-            path = path.parent()?.join(target);
-            if let Some(name) = named_by(&path).filter(|name| is_known(name)) {
-                return Some(name.to_owned());
+            let next = path.parent().map(|folder| folder.join(&target));
+            links.push((path, target));
+            match next {
+                Some(next) => path = next,
+                None => break,
             }
         }
-        None
+        links
+    }
+
+    /// Why there is no name.
+    fn obstacle(&self, mut links: Vec<(PathBuf, PathBuf)>) -> Unnamed {
+        let path = self.localtime.clone();
+        let is_circle = links.len() == LINKS_MAX;
+        match kept_file::read(&path) {
+            Ok(_) => Unnamed::OfNoZone(path),
+            Err(_) if is_circle => Unnamed::Circle(path),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => match links.pop() {
+                Some((link, target)) => Unnamed::DanglingLink { link, target },
+                None => Unnamed::NoFile(path),
+            },
+            Err(error) => Unnamed::Unreadable {
+                path,
+                reason: error.to_string(),
+            },
+        }
     }
 
     /// The zone whose file `/etc/localtime` is a copy of; `written` first, since several names may share their rules.
@@ -130,6 +190,20 @@ impl Sources {
     }
 }
 
+/// The zone whose file the links lead to. Each link counts by its name, because the file at the end may be that of another name: many
+/// zones are links themselves.
+fn linked(links: &[(PathBuf, PathBuf)], is_known: &dyn Fn(&str) -> bool) -> Option<String> {
+    let mut names = links.iter().filter_map(|(_, target)| named_by(target));
+    names.find(|name| is_known(name)).map(str::to_owned)
+}
+
+/// The zone that a `TZ` means to name, by its name or by the path of its file; none when it leaves that to the system.
+fn named_by_variable(text: &str) -> Option<&str> {
+    let name = text.trim().trim_start_matches(':').trim_start();
+    let is_system = name.is_empty() || name == "/etc/localtime";
+    (!is_system).then(|| named_by(Path::new(name)).unwrap_or(name))
+}
+
 /// The zone that the path of a zone's file names.
 fn named_by(path: &Path) -> Option<&str> {
     let (_, name) = path.to_str()?.split_once("/zoneinfo/")?;
@@ -137,113 +211,4 @@ fn named_by(path: &Path) -> Option<&str> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::fs;
-    use std::os::unix::fs::symlink;
-    use std::path::{Path, PathBuf};
-    use std::sync::atomic::{AtomicU32, Ordering};
-
-    use super::Sources;
-
-    /// A system with two zones, one of which has two names.
-    struct System(PathBuf);
-
-    impl Drop for System {
-        fn drop(&mut self) {
-            fs::remove_dir_all(&self.0).ok();
-        }
-    }
-
-    impl System {
-        fn new() -> Self {
-            static SYSTEMS: AtomicU32 = AtomicU32::new(0);
-            let number = SYSTEMS.fetch_add(1, Ordering::Relaxed);
-            let scratch = std::env::temp_dir().join(format!("rvac-zone-{}-{number}", std::process::id()));
-            let zones = scratch.join("usr/zoneinfo/Europe");
-            fs::create_dir_all(&zones).expect("creates");
-            fs::create_dir_all(scratch.join("etc")).expect("creates");
-            for (name, rules) in [("Tallinn", "east"), ("London", "west"), ("Belfast", "west")] {
-                fs::write(zones.join(name), rules).expect("writes");
-            }
-            Self(scratch)
-        }
-
-        fn etc(&self, name: &str) -> std::path::PathBuf {
-            self.0.join("etc").join(name)
-        }
-
-        fn link(&self, to: impl AsRef<Path>) {
-            symlink(to, self.etc("localtime")).expect("links");
-        }
-
-        fn write(&self, name: &str, text: &str) {
-            fs::write(self.etc(name), text).expect("writes");
-        }
-
-        /// Name of the zone, and whether something is said of it.
-        fn zone(&self, variable: Option<&str>) -> (String, bool) {
-            let sources = Sources {
-                variable: variable.map(str::to_owned),
-                localtime: self.etc("localtime"),
-                timezone: self.etc("timezone"),
-                zones: self.0.join("usr/zoneinfo"),
-            };
-            let is_known = |name: &str| ["Europe/Tallinn", "Europe/London", "Europe/Belfast"].contains(&name);
-            let found = sources.zone(&is_known);
-            (
-                found.name.unwrap_or_else(|| "UTC".to_owned()),
-                found.complaint.is_some(),
-            )
-        }
-    }
-
-    fn quietly(name: &str) -> (String, bool) {
-        (name.to_owned(), false)
-    }
-
-    #[test]
-    fn the_link_counts_and_a_name_that_stayed_behind_does_not() {
-        let system = System::new();
-        system.write("timezone", "Europe/London\n");
-        assert_eq!(system.zone(None), quietly("Europe/London"), "there is no link");
-        system.link("../usr/zoneinfo/posix/Europe/Tallinn");
-        assert_eq!(system.zone(None), quietly("Europe/Tallinn"));
-    }
-
-    #[test]
-    fn links_are_followed_and_copies_are_found_by_what_they_hold() {
-        let system = System::new();
-        symlink(
-            system.0.join("usr/zoneinfo/Europe/Tallinn"),
-            system.etc("zone-of-the-house"),
-        )
-        .expect("links");
-        system.link("zone-of-the-house");
-        assert_eq!(system.zone(None), quietly("Europe/Tallinn"));
-        fs::remove_file(system.etc("localtime")).expect("removes");
-        system.write("localtime", "west");
-        system.write("timezone", "Europe/Tallinn");
-        assert_eq!(
-            system.zone(None),
-            quietly("Europe/Belfast"),
-            "the first of two that are alike"
-        );
-        system.write("timezone", "Europe/London");
-        assert_eq!(system.zone(None), quietly("Europe/London"));
-    }
-
-    #[test]
-    fn what_names_no_zone_is_said() {
-        let system = System::new();
-        let utc = || ("UTC".to_owned(), true);
-        assert_eq!(system.zone(None), utc());
-        system.link("nowhere");
-        system.write("timezone", "Europe/London");
-        assert_eq!(system.zone(None), utc(), "a link that leads nowhere");
-        assert_eq!(system.zone(Some(":Europe/Tallinn")), quietly("Europe/Tallinn"));
-        assert_eq!(system.zone(Some("Moon")), utc());
-        fs::remove_file(system.etc("localtime")).expect("removes");
-        system.write("localtime", "west");
-        assert_eq!(system.zone(Some("Moon")), ("Europe/London".to_owned(), true));
-    }
-}
+mod tests;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use robot_link::{AddressError, LinkAddress};
 
+use super::gyro::gyro;
 use super::serial_devices::kernel_name;
 use super::{Board, Finding};
 
@@ -29,6 +30,8 @@ pub(crate) fn all(board: &Board, now_s: u64) -> Vec<Finding> {
         findings.push(console(board, &name));
         findings.push(bluetooth(board, &name));
     }
+    let table = board.text(CONFIGURATION).and_then(|text| text.parse().ok());
+    findings.extend(table.and_then(|table| gyro(board, &table)));
     findings.extend([
         groups(board),
         clock(now_s),
@@ -225,21 +228,21 @@ fn clock(now_s: u64) -> Finding {
 
 fn zone(board: &Board) -> Finding {
     const CHECK: &str = "zone";
+    const REMEDY: &str =
+        "timedatectl set-timezone Europe/Tallinn, or whichever is yours: vthal takes it up within a minute";
     // The daemon's `TZ` is not that of this shell: what the files say counts.
     let is_known = |name: &str| jiff::tz::TimeZone::get(name).is_ok();
     let found = system_zone::find(&board.path(""), None, is_known);
-    match found.name.as_deref() {
-        None => Finding::warning(
+    match found.name {
+        Err(why) => Finding::warning(
             CHECK,
-            "this board's time zone is not known, so schedules are in UTC",
-            "timedatectl set-timezone Europe/Tallinn, or whichever is yours, and restart vthal",
+            format!(
+                "this board's time zone is not known: {why}; schedules are in UTC, or in the zone from before"
+            ),
+            REMEDY,
         ),
-        Some(name) if name.ends_with("UTC") => Finding::warning(
-            CHECK,
-            "schedules are in UTC",
-            "timedatectl set-timezone Europe/Tallinn, or whichever is yours, and restart vthal",
-        ),
-        Some(name) => Finding::good(CHECK, name),
+        Ok(name) if name.ends_with("UTC") => Finding::warning(CHECK, "schedules are in UTC", REMEDY),
+        Ok(name) => Finding::good(CHECK, name),
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod checks;
 mod finding;
+mod gyro;
 mod serial_devices;
 #[cfg(test)]
 mod tests;

@@ -202,3 +202,38 @@ fn a_real_board_is_looked_at_without_harm() {
     let findings = all(&Board::below(&PathBuf::from("/")), NOW_S);
     assert!(findings.iter().any(|finding| finding.check == "disk"));
 }
+
+#[test]
+fn a_gyro_that_is_configured_must_be_there_and_answer() {
+    const SENSOR: &str = "sys/bus/iio/devices/iio:device0";
+    let folder = pi_zero();
+    let configuration = "link = \"uart:/dev/serial0\"\n[imu]\ndevice = \"mpu6050\"\nup = \"-y\"\n";
+    put(&folder, "etc/vthal.toml", configuration);
+    let told = |cause: &str| vec![("gyro", Grade::Fault, cause.to_owned())];
+    assert_eq!(
+        complaints(&folder),
+        told("the kernel has no sensor mpu6050 (it has none)")
+    );
+    put(&folder, &format!("{SENSOR}/name"), "bmi160\n");
+    assert_eq!(
+        complaints(&folder),
+        told("the kernel has no sensor mpu6050 (it has bmi160)")
+    );
+    put(&folder, &format!("{SENSOR}/name"), "mpu6050\n");
+    assert_eq!(complaints(&folder), told("mpu6050 has no gyro on the axis y"));
+    let raw = format!("{SENSOR}/in_anglvel_y_raw");
+    put(&folder, &raw, "-12\n");
+    assert_eq!(complaints(&folder), []);
+    put(&folder, &raw, "?\n");
+    assert_eq!(
+        complaints(&folder),
+        told("mpu6050 does not answer: it says \"?\"")
+    );
+    // What a bus without the chip gives is an error of reading; a folder gives one, too.
+    fs::remove_file(folder.join(&raw)).expect("removed");
+    fs::create_dir(folder.join(&raw)).expect("a folder");
+    assert_eq!(
+        complaints(&folder),
+        told("mpu6050 does not answer: Is a directory (os error 21)")
+    );
+}

@@ -1,6 +1,6 @@
 //! One drive: readings come in, requests go out under a lease.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::bail;
 use mixer::{
-    BumpWatch, ClientInputs, Device, MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, Source,
+    BumpWatch, ClientInputs, Device, Mixer, Pilot, Profile, Readings, Remarks, STEP_EVERY_US, Source,
     TopSpeeds,
 };
-use rvac_api::{Explanation, Request, RequestBody, RobotDescription, Status, Topic, Update, explain};
+use rvac_api::{Request, RequestBody, RobotDescription, Status, Topic, Update};
 
 use super::DriveEvent;
 use super::shaker::Shaker;
@@ -19,10 +19,6 @@ use crate::socket::Connection;
 
 /// Period at which the mixer reads the inputs.
 const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
-/// Name of the reason why a pushed pad that says nothing stops the wheels.
-const PAD_SILENT: &str = "pad-silent";
-/// Inputs that are not at rest are named this often at most.
-const NAMED_EVERY_US: u64 = 1_000_000;
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 /// Number of all other requests.
@@ -40,12 +36,7 @@ pub(super) struct Session {
     shakers: BTreeMap<u8, Shaker>,
     bumps: BumpWatch,
     start: Instant,
-    /// Pads of which the person knows that they are silent.
-    silent_pads: BTreeSet<u8>,
-    /// The last message to the person, when, and the inputs that it named.
-    told: Option<MixState>,
-    named_us: u64,
-    named: Vec<Source>,
+    remarks: Remarks,
 }
 
 fn top(robot: &RobotDescription) -> TopSpeeds {
@@ -87,10 +78,7 @@ impl Session {
             shakers: BTreeMap::new(),
             bumps: BumpWatch::default(),
             start: Instant::now(),
-            silent_pads: BTreeSet::new(),
-            told: None,
-            named_us: 0,
-            named: Vec::new(),
+            remarks: Remarks::default(),
         })
     }
 
@@ -175,8 +163,9 @@ impl Session {
         let now_us = self.now_us();
         self.take_client_inputs(now_us)?;
         let steered = self.pilot.step(now_us, &self.readings, self.top);
-        self.tell_silent(steered.silent_pads)?;
-        self.tell(&steered.mixed)?;
+        for line in self.remarks.on(now_us, &steered) {
+            remark(&line.to_string())?;
+        }
         for body in steered.presses {
             self.send(PRESS_ID, body)?;
         }
@@ -214,42 +203,6 @@ impl Session {
 
     fn send(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
         self.connection.send(&Request { id: Some(id), body })
-    }
-
-    /// Tells the person which pads are pushed and say nothing more.
-    fn tell_silent(&mut self, pads: BTreeSet<u8>) -> anyhow::Result<()> {
-        for pad in pads.difference(&self.silent_pads) {
-            let why = explain(PAD_SILENT).map(Explanation::text).unwrap_or_default();
-            remark(&format!("pad-{pad} is silent ({PAD_SILENT}): {why}"))?;
-        }
-        self.silent_pads = pads;
-        Ok(())
-    }
-
-    /// Tells the person when the inputs begin or cease to count, and which of them is not at rest.
-    fn tell(&mut self, mixed: &Mixed) -> anyhow::Result<()> {
-        if self.told.replace(mixed.state) != Some(mixed.state) {
-            self.named.clear();
-            match mixed.state {
-                MixState::Live => remark("ready")?,
-                MixState::Failsafe => remark("waits until every input is at rest")?,
-            }
-        }
-        let now_us = self.now_us();
-        let named: Vec<Source> = mixed.away.iter().map(|away| away.input.clone()).collect();
-        if named.is_empty() || named == self.named || now_us.saturating_sub(self.named_us) < NAMED_EVERY_US {
-            return Ok(());
-        }
-        (self.named_us, self.named) = (now_us, named);
-        let readings: Vec<String> = mixed
-            .away
-            .iter()
-            .map(|away| format!("{} reads {:.2}", away.input, away.reading))
-            .collect();
-        remark(&format!(
-            "not at rest: {} (if nobody touches it, calibrate it in the mix)",
-            readings.join(", ")
-        ))
     }
 }
 

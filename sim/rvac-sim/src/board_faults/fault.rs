@@ -35,7 +35,7 @@ pub enum BoardFault {
 }
 
 /// Names by which faults are told; whichever is not of the present fault is a wrong cause.
-const NAMES: [&str; 18] = [
+const NAMES: [&str; 21] = [
     "gyro-frozen",
     "gyro-at-its-limit",
     "gyro-disagrees",
@@ -54,6 +54,9 @@ const NAMES: [&str; 18] = [
     "slip",
     "wheel-stall",
     "encoder",
+    "zone-changed",
+    "zone-unknown",
+    "zone-variable-unknown",
 ];
 
 /// Faults that come together.
@@ -71,6 +74,11 @@ impl BoardFaults {
             faults.extend(first.companion(number, round));
         }
         Self(faults)
+    }
+
+    /// This one alone.
+    pub(super) fn of(fault: BoardFault) -> Self {
+        Self(vec![fault])
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = BoardFault> {
@@ -96,10 +104,10 @@ impl BoardFaults {
 }
 
 /// So many kinds take turns.
-pub(super) const KINDS: u64 = 20;
+pub(super) const KINDS: u64 = 22;
 /// Numbers of the first zone's and the first pad's kind.
 const FIRST_ZONE: u64 = 9;
-const FIRST_PAD: u64 = 15;
+const FIRST_PAD: u64 = 17;
 
 impl BoardFault {
     /// Whether nothing else is drawn beside it.
@@ -191,8 +199,9 @@ impl BoardFault {
             Self::WrongSpeed => &["line-wrong-speed"],
             Self::Console => &["line-has-console"],
             Self::DiskRefuses(_) => &["schedules-unwritable"],
-            // The last two are told elsewhere than in a run's log, and judged by trials of their own.
-            Self::ClockJump { .. } | Self::Zone(_) | Self::Pad(_) => &[],
+            Self::Zone(fault) => fault.told_as(),
+            // The last is told where a person drives, and judged by a trial of its own.
+            Self::ClockJump { .. } | Self::Pad(_) => &[],
         }
     }
 

@@ -1,12 +1,12 @@
-//! Gamepads as they fail in homes: whether the wheels stand when they must, and whether people are told.
+//! Gamepads as they fail in homes: whether the wheels stand when they must, and whether people read of it in the lines of `rvac drive`.
 
 use std::f64::consts::PI;
 
 use brain::command::StrategyName;
 use home::Pcg;
 use mixer::{
-    Calibration, Line, MixState, Mixer, Name, OutputName, PAD_SILENT_US, Pilot, Profile, Readings,
-    STEP_EVERY_US, Source, Steered, TopSpeeds, standard_profile,
+    Calibration, Line, Mixer, Name, OutputName, PAD_SILENT_US, Pilot, Profile, Readings, Remarks,
+    STEP_EVERY_US, Source, TopSpeeds, standard_profile,
 };
 use rvac_api::RequestBody;
 
@@ -56,9 +56,9 @@ struct PadTrial {
     readings: Readings,
     random: Pcg,
     top: TopSpeeds,
-    /// Whether the person was told that a pad is silent.
-    told_silent: bool,
-    last: Option<Steered>,
+    remarks: Remarks,
+    /// The lines that the person has read.
+    lines: Vec<String>,
 }
 
 /// A person with a pad and a robot.
@@ -81,6 +81,9 @@ pub(super) fn passage(scene: &Scene, fault: PadFault, seed: u64) -> BoardPassage
     let is_late = told_ms.is_none_or(|told_ms| told_ms > TOLD_MS);
     if fault.is_told() && is_late {
         passed.untold.push(fault.kind());
+    }
+    if fault != PadFault::HeldSilent && trial.has_read("(pad-silent)") {
+        passed.wrong_causes.push("pad-silent");
     }
     passed.violations = trial.household.robot().monitor().count() + u32::from(moved_wrongly);
     passed
@@ -167,8 +170,8 @@ impl PadTrial {
                 forward_m_per_s: 0.3,
                 turn_rad_per_s: 1.0,
             },
-            told_silent: false,
-            last: None,
+            remarks: Remarks::default(),
+            lines: Vec::new(),
         };
         trial.plug();
         Some(trial)
@@ -198,11 +201,17 @@ impl PadTrial {
         turned_rad
     }
 
+    /// Whether the person has read this.
+    fn has_read(&self, what: &str) -> bool {
+        self.lines.iter().any(|line| line.contains(what))
+    }
+
     /// As `rvac drive` does it.
     fn step(&mut self) {
         let now_us = self.household.now_us();
         let steered = self.pilot.step(now_us, &self.readings, self.top);
-        self.told_silent |= !steered.silent_pads.is_empty();
+        let remarks = self.remarks.on(now_us, &steered);
+        self.lines.extend(remarks.iter().map(ToString::to_string));
         for body in steered.presses.clone() {
             self.household.ask(body);
         }
@@ -212,7 +221,6 @@ impl PadTrial {
                 self.pilot.refuse();
             }
         }
-        self.last = Some(steered);
     }
 
     /// A thumb that pushes, and trembles as thumbs do.
@@ -242,13 +250,11 @@ impl PadTrial {
         let silent_ms = PAD_SILENT_US / 1_000;
         for ms in (0..=silent_ms).step_by(STEP_MS as usize) {
             self.pass(STEP_MS, |_, _| {});
-            if self.told_silent && told_ms.is_none() {
+            if told_ms.is_none() && self.has_read("(pad-silent)") {
                 told_ms = Some(ms);
             }
         }
-        // A word of its own, which people can read.
-        let is_explained = rvac_api::explain("pad-silent").is_some();
-        (told_ms.filter(|_| is_explained), !(drove && self.stands()))
+        (told_ms, !(drove && self.stands()))
     }
 
     fn second_stops(&mut self) -> bool {
@@ -280,16 +286,12 @@ impl PadTrial {
         self.readings = Readings::default();
         self.plug();
         self.readings.set(&input, reading);
+        let not_at_rest = format!("not at rest: {input} reads {reading:.2} ");
         let mut told_ms = None;
         let mut turned_rad = 0.0;
         for ms in (0..2_000).step_by(STEP_MS as usize) {
             turned_rad += self.pass(STEP_MS, |_, _| {});
-            let names_it = self.last.as_ref().is_some_and(|steered| {
-                let mut away = steered.mixed.away.iter();
-                steered.mixed.state == MixState::Failsafe
-                    && away.any(|away| away.input == input && (away.reading - reading).abs() < 1e-9)
-            });
-            if names_it && told_ms.is_none() {
+            if told_ms.is_none() && self.has_read(&not_at_rest) {
                 told_ms = Some(ms);
             }
         }

@@ -24,7 +24,7 @@ const TURN_MAX_MS: u64 = 60_000;
 /// A turn in which a gyro's fault shows, radians.
 const TURN_RAD: f64 = 1.6;
 /// The clock on the wall at the start: noon UTC.
-const WALL_S: i64 = MIDNIGHT_S + 12 * 3_600;
+pub(super) const WALL_S: i64 = MIDNIGHT_S + 12 * 3_600;
 
 /// How a draw passed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 
 use brain::command::StrategyName;
 use home::Pcg;
-use vthal_core::CoreConfig;
-use vthal_core::schedule::Zone;
+use system_zone::{LOOK_EVERY, SystemZone, Unnamed, ZoneWatch};
+use vthal_core::Input;
+use vthal_core::schedule::{Zone, ZoneReading};
 
-use super::trial::BoardPassage;
+use super::fault::{BoardFault, BoardFaults};
+use super::trial::{BoardPassage, WALL_S};
 use crate::run::core_config;
 use crate::{Host, Scene, TICK_US};
 
@@ -29,7 +31,14 @@ pub enum ZoneFault {
     VariableSet,
     /// `TZ` names no zone.
     VariableUnknown,
+    /// Another zone is set while the daemon runs.
+    ChangedWhileRunning,
+    /// While the daemon runs the zone becomes one that cannot be told.
+    LostWhileRunning,
 }
+
+/// A change is taken up within this time, milliseconds.
+const CHANGE_MS: u64 = 60_000;
 
 /// Zones that homes are in.
 const ZONES: [&str; 5] = [
@@ -49,10 +58,12 @@ struct Drawn {
     random: Pcg,
 }
 
-/// What must come of it: the zone that schedules are in, and whether people are told something.
+/// What must come of it.
 struct Expected {
+    /// The zone that schedules are in.
     zone: &'static str,
-    is_told: bool,
+    /// A zone that people are asked whether they mean it.
+    meant: Option<&'static str>,
     variable: Option<String>,
 }
 
@@ -80,6 +91,18 @@ impl Drawn {
 
     fn coin(&mut self) -> bool {
         self.random.unit() < 0.5
+    }
+
+    /// The zone of the home with a letter left out, as hands do, and that zone; or a name like none.
+    fn misspelt(&mut self) -> (String, Option<&'static str>) {
+        if self.coin() {
+            return ("Moon/Tranquility".to_owned(), None);
+        }
+        let mut name = self.home.to_owned();
+        let letters = name.find('/').map_or(0, |slash| slash + 1)..name.len() - 1;
+        let place = letters.start + (self.random.unit() * letters.len() as f64) as usize;
+        name.remove(place);
+        (name, Some(self.home))
     }
 }
 
@@ -121,7 +144,7 @@ impl SystemRoot {
         let (home, other) = (drawn.home, drawn.other);
         let mut expected = Expected {
             zone: home,
-            is_told: false,
+            meant: None,
             variable: None,
         };
         match fault {
@@ -145,12 +168,8 @@ impl SystemRoot {
             }
             ZoneFault::DanglingLink => {
                 self.write("timezone", home)?;
-                if drawn.coin() {
-                    self.link_to_zone("Moon/Tranquility")?;
-                } else {
-                    self.link("nowhere")?;
-                }
-                (expected.zone, expected.is_told) = (NO_ZONE, true);
+                expected.meant = self.link_to_nothing(drawn)?;
+                expected.zone = NO_ZONE;
             }
             ZoneFault::VariableSet => {
                 self.link_to_zone(other)?;
@@ -162,11 +181,43 @@ impl SystemRoot {
             }
             ZoneFault::VariableUnknown => {
                 self.link_to_zone(home)?;
-                expected.variable = Some("Moon/Tranquility".to_owned());
-                expected.is_told = true;
+                let (name, meant) = drawn.misspelt();
+                (expected.variable, expected.meant) = (Some(name), meant);
             }
+            ZoneFault::ChangedWhileRunning | ZoneFault::LostWhileRunning => self.link_to_zone(home)?,
         }
         Ok(expected)
+    }
+
+    /// Makes `/etc/localtime` a link that leads nowhere; gives the zone that is meant by it.
+    fn link_to_nothing(&self, drawn: &mut Drawn) -> io::Result<Option<&'static str>> {
+        if drawn.coin() {
+            self.link("nowhere")?;
+            return Ok(None);
+        }
+        let (name, meant) = drawn.misspelt();
+        self.link_to_zone(&name)?;
+        Ok(meant)
+    }
+
+    /// Changes the system of a daemon that runs.
+    fn change(&self, fault: ZoneFault, drawn: &mut Drawn, expected: &mut Expected) -> io::Result<()> {
+        fs::remove_file(self.etc("localtime"))?;
+        let other = drawn.other;
+        match (fault, drawn.coin(), drawn.coin()) {
+            (ZoneFault::ChangedWhileRunning, true, _) => self.link_to_zone(other)?,
+            (ZoneFault::ChangedWhileRunning, false, true) => {
+                fs::copy(self.zone(other), self.etc("localtime"))?;
+            }
+            (ZoneFault::ChangedWhileRunning, false, false) => self.write("timezone", other)?,
+            (ZoneFault::LostWhileRunning, true, _) => expected.meant = self.link_to_nothing(drawn)?,
+            (ZoneFault::LostWhileRunning, false, true) => self.write("localtime", "of no zone")?,
+            _ => {}
+        }
+        if fault == ZoneFault::ChangedWhileRunning {
+            expected.zone = other;
+        }
+        Ok(())
     }
 }
 
@@ -181,47 +232,79 @@ pub(super) fn passage(scene: &Scene, fault: ZoneFault, seed: u64) -> BoardPassag
 
 fn try_passage(scene: &Scene, fault: ZoneFault, seed: u64) -> io::Result<BoardPassage> {
     let root = SystemRoot::new(seed)?;
-    let expected = root.make(fault, &mut Drawn::of(seed))?;
-    // As the daemon does.
-    let found = system_zone::find(&root.0, expected.variable, |name| Zone::named(name).is_some());
-    let zone = found
-        .name
-        .as_deref()
-        .and_then(Zone::named)
-        .unwrap_or_else(Zone::utc);
-    let config = core_config(scene, seed, StrategyName::Bounce);
-    let mut host = Host::start(
-        0,
-        CoreConfig {
-            zone,
-            complaints: found.complaint.into_iter().collect(),
-            ..config
-        },
-    );
-    let lines = host.read_log(TICK_US);
-    let is_told = lines.iter().any(|entry| entry.text.contains("time zone"));
-    let mut passed = BoardPassage::default();
-    if expected.is_told && is_told {
-        passed.told_s.insert(fault.kind(), 0.0);
+    let mut drawn = Drawn::of(seed);
+    let mut expected = root.make(fault, &mut drawn)?;
+    let variable = expected.variable.clone();
+    let mut watch = ZoneWatch::start(&root.0, variable, |name| Zone::named(name).is_some());
+    let mut host = Host::start(0, core_config(scene, seed, StrategyName::Bounce));
+    host.handle(0, Input::SystemZone(reading(watch.zone())));
+    host.set_wall(0, WALL_S);
+    let mut now_us = TICK_US;
+    host.step(now_us, &[]);
+    if fault.is_change() {
+        root.change(fault, &mut drawn, &mut expected)?;
+        let look_ms = u64::try_from(LOOK_EVERY.as_millis()).unwrap_or(CHANGE_MS);
+        for ms in 1..=CHANGE_MS {
+            now_us += TICK_US;
+            if ms.is_multiple_of(look_ms)
+                && let Some(zone) = watch.look()
+            {
+                host.handle(now_us, Input::SystemZone(reading(zone)));
+            }
+            host.step(now_us, &[]);
+        }
     }
+    Ok(judge((fault, &expected), &mut host, now_us))
+}
+
+/// As the daemon does.
+fn reading(zone: &SystemZone) -> ZoneReading {
+    let unnamed = zone.name.as_ref().err();
+    ZoneReading {
+        name: zone.name.clone().map_err(|why| why.to_string()),
+        tried: unnamed.and_then(Unnamed::tried).map(str::to_owned),
+        wrong_variable: zone.wrong_variable.clone(),
+    }
+}
+
+/// What a client hears who comes now: the zone that schedules are in, and the reasons in the log.
+fn judge((fault, expected): (ZoneFault, &Expected), host: &mut Host, now_us: u64) -> BoardPassage {
+    let lines = host.read_log(now_us);
+    let (of_board, faults) = (BoardFault::Zone(fault), BoardFaults::of(BoardFault::Zone(fault)));
+    let asks = |text: &str| {
+        let question = expected.meant.map(|meant| format!("did you mean {meant}?"));
+        question.is_none_or(|question| text.contains(&question))
+    };
+    let told = lines
+        .iter()
+        .find(|line| of_board.is_told_in(&line.text) && asks(&line.text));
+    let mut passed = BoardPassage::default();
+    if let Some(line) = told {
+        passed.told_s.insert(fault.kind(), line.t);
+    }
+    let must_be_told = !fault.told_as().is_empty();
+    let zone = host.read_schedules(now_us).map(|schedules| schedules.zone);
     // Schedules in the wrong zone, of which nobody is told, are what this is about.
-    if host.schedules().zone != expected.zone || expected.is_told && !is_told {
+    if zone.as_deref() != Some(expected.zone) || must_be_told && told.is_none() {
         passed.untold.push(fault.kind());
     }
-    if is_told && !expected.is_told {
-        passed.wrong_causes.push(fault.kind());
-    }
-    Ok(passed)
+    passed.wrong_causes = lines
+        .iter()
+        .flat_map(|line| faults.wrong_causes(&line.text))
+        .collect();
+    passed
 }
 
 impl ZoneFault {
-    pub(super) const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::CopiedFile,
         Self::LinkToLink,
         Self::StaleName,
         Self::DanglingLink,
         Self::VariableSet,
         Self::VariableUnknown,
+        Self::ChangedWhileRunning,
+        Self::LostWhileRunning,
     ];
 
     /// Its kind, for tables.
@@ -233,6 +316,23 @@ impl ZoneFault {
             Self::DanglingLink => "zone-link-dangling",
             Self::VariableSet => "zone-variable-set",
             Self::VariableUnknown => "zone-variable-unknown",
+            Self::ChangedWhileRunning => "zone-changed-while-running",
+            Self::LostWhileRunning => "zone-lost-while-running",
         }
+    }
+
+    /// Names of which one must be told; none for what works as any other system.
+    pub(super) const fn told_as(self) -> &'static [&'static str] {
+        match self {
+            Self::CopiedFile | Self::LinkToLink | Self::StaleName | Self::VariableSet => &[],
+            Self::DanglingLink | Self::LostWhileRunning => &["zone-unknown"],
+            Self::VariableUnknown => &["zone-variable-unknown"],
+            Self::ChangedWhileRunning => &["zone-changed"],
+        }
+    }
+
+    /// Whether it comes while the daemon runs.
+    const fn is_change(self) -> bool {
+        matches!(self, Self::ChangedWhileRunning | Self::LostWhileRunning)
     }
 }

@@ -8,7 +8,7 @@ use crate::brain_session::BrainSession;
 use crate::desk::readiness::Readiness;
 use crate::desk::schedules::Decided;
 use crate::refusal::Refused;
-use crate::schedule::{Entry, Outcome, Verdict};
+use crate::schedule::{Entry, Outcome, Verdict, ZoneReading};
 
 impl Core {
     /// The clock on the wall shows this.
@@ -17,6 +17,14 @@ impl Core {
         let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.set_clock(utc_s, &readiness, &mut teller);
+    }
+
+    /// The system says its time zone.
+    pub(super) fn set_system_zone(&mut self, now_us: u64, reading: ZoneReading, outputs: &mut Outputs) {
+        let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.system_zone
+            .take(reading, (&mut self.schedules, &readiness), &mut teller);
     }
 
     /// The disk is free for the next change of schedules; a decision on the disk may now be given to the robot.

@@ -36,4 +36,5 @@ pub(crate) mod schedules;
 pub(crate) mod sources;
 pub(crate) mod standstills;
 mod strange_line;
+pub(crate) mod system_zone;
 pub(crate) mod words;

@@ -66,10 +66,10 @@ pub(super) enum Task {
 }
 
 impl Scheduler {
-    pub(super) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
+    pub(super) fn new(book: Book, distrusts_marks: bool) -> Self {
         Self {
             book,
-            system_zone,
+            system_zone: Zone::utc(),
             now_s: None,
             distrusts_marks,
             writes: 0,
@@ -179,7 +179,22 @@ impl Scheduler {
         self.keep(self.book.clone(), Then::Nothing)
     }
 
-    fn zone(&self) -> &Zone {
+    /// The zone of the system; gives the name of the one before. What was due in the past of a zone that people moved to is not made
+    /// up for, as when a person sets the zone of the schedules.
+    pub(super) fn set_system_zone(&mut self, zone: Zone, change: bool) -> String {
+        let before = std::mem::replace(&mut self.system_zone, zone);
+        let moved = change && before != self.system_zone && self.book.zone().is_none();
+        if let Some(now_s) = self.set_clock_s().filter(|_| moved) {
+            let written = self.writing.as_mut().map(|writing| &mut writing.book);
+            for book in written.into_iter().chain([&mut self.book]) {
+                book.forget_before(now_s);
+            }
+        }
+        before.name().to_owned()
+    }
+
+    /// The zone that schedules are in.
+    pub(super) fn zone(&self) -> &Zone {
         self.book.zone().unwrap_or(&self.system_zone)
     }
 

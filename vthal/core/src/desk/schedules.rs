@@ -58,9 +58,9 @@ pub(crate) struct ScheduleDesk {
 
 impl ScheduleDesk {
     /// With schedules as they were kept; of marks that are distrusted the newest may be lost.
-    pub(crate) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
+    pub(crate) fn new(book: Book, distrusts_marks: bool) -> Self {
         Self {
-            scheduler: Scheduler::new(book, system_zone, distrusts_marks),
+            scheduler: Scheduler::new(book, distrusts_marks),
             sent: None,
             sent_us: 0,
             ended: false,
@@ -75,6 +75,22 @@ impl ScheduleDesk {
     /// What the clock on the wall shows, if it was ever set.
     pub(crate) fn clock_s(&self) -> Option<i64> {
         self.scheduler.set_clock_s()
+    }
+
+    /// Schedules that have no zone of their own follow this one; if that is a `change`, what was due before it is not made up for.
+    /// Gives the name of the zone before.
+    pub(crate) fn set_system_zone(&mut self, zone: Zone, change: bool) -> String {
+        self.scheduler.set_system_zone(zone, change)
+    }
+
+    /// Name of the zone that a person has set with the schedules.
+    pub(crate) fn own_zone(&self) -> Option<&str> {
+        self.scheduler.book().zone().map(Zone::name)
+    }
+
+    /// Name of the zone that schedules are in.
+    pub(crate) fn zone_name(&self) -> &str {
+        self.scheduler.zone().name()
     }
 
     /// The daemon ends.
@@ -199,7 +215,8 @@ impl ScheduleDesk {
         }
     }
 
-    fn tell(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
+    /// Sends followers what has changed.
+    pub(super) fn tell(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
         self.sent_us = teller.now_us;
         if !teller.has_followers(Topic::Schedules) {
             return;

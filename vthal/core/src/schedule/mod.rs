@@ -19,6 +19,7 @@ mod to_api;
 mod verdict;
 mod when;
 mod zone;
+mod zone_reading;
 
 pub use book::{Book, EditError, ScheduleEdit};
 pub use entry::{Entry, Plan};
@@ -30,6 +31,7 @@ pub(crate) use to_api::{Keeping, view};
 pub use verdict::{GRACE_S, NO_ROBOT, Outcome, Verdict, verdict};
 pub use when::{Days, When};
 pub use zone::{WallClock, Zone};
+pub use zone_reading::ZoneReading;
 
 /// Before 2024 no clock of a robot is right: a board without a battery for its clock begins in 1970, or when its system was
 /// made.
