@@ -428,7 +428,7 @@ fn a_robot_that_was_put_elsewhere_finds_its_place_between_kept_beacons() {
             found += u32::from(found_after_m(&run).is_some());
         }
     }
-    assert!(found >= 6, "{found} of 8");
+    assert!(found >= 5, "{found} of 8");
 }
 
 #[test]
