@@ -1,5 +1,6 @@
 //! The brain as its shell sees it.
 
+mod beacon_words;
 pub mod checkpoint;
 mod floor_sensing;
 mod gyro_words;
@@ -131,6 +132,7 @@ impl Brain {
         self.tell_gyro();
         let correction = self.localization.refine(observation, advance);
         self.correct_map(correction);
+        self.tell_beacons();
         self.doubt_map();
         let estimate = self.localization.estimate();
         let pose = estimate.pose;

@@ -41,6 +41,7 @@ mod totals;
 mod tracker;
 mod tracking_checkpoint;
 
+pub(crate) use beacons::BeaconEvent;
 pub use localizer::Localization;
 pub use map_correction::MapCorrection;
 pub use storey_finder::{StoreyFinder, StoreyFinding, StoreyPose};

@@ -181,9 +181,9 @@ impl Tracker {
         self.has_drifted = false;
     }
 
-    /// Number of proximity sensors that are compared with the map.
-    pub(super) fn sensor_count(&self) -> usize {
-        self.layout.proximity.sensors().len()
+    /// Whether too few sensors are compared with the map to tell a place in it.
+    pub(super) fn is_blind(&self) -> bool {
+        self.layout.proximity.sensors().len() < SENSORS_MIN
     }
 
     /// Whether the robot is lost.

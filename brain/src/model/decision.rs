@@ -110,6 +110,8 @@ named_enum! {
         FixTaken => "fix-taken",
         /// Follows a wall.
         FollowWall => "follow-wall",
+        /// Forgets where the radio beacon of this number was.
+        ForgetBeacons => "forget-beacons",
         /// Forgets the obstructions of this job.
         ForgetObstructions => "forget-obstructions",
         /// Recovery succeeded.
@@ -126,12 +128,16 @@ named_enum! {
         LeaveWall => "leave-wall",
         /// Leaves the planned path.
         LeaveWay => "leave-way",
+        /// Knows its place between its radio beacons again.
+        PlaceFound => "place-found",
         /// Planned the remaining floor.
         Plan => "plan",
         /// Refuses a job command.
         Refuse => "refuse",
         /// Stands still to measure the bias of the gyro.
         Rest => "rest",
+        /// Looks for its place between its radio beacons.
+        SearchPlace => "search-place",
         /// Drives a spiral.
         Spiral => "spiral",
         /// Plans with narrower margins.

@@ -99,6 +99,14 @@ named_enum! {
         BeaconsHeard => "beacons-heard",
         /// Too few beacons are in range.
         BeaconsSilent => "beacons-silent",
+        /// Ranges to the beacons do not fit the place.
+        PlaceContradicted => "place-contradicted",
+        /// Ranges to the beacons fit one place only.
+        BeaconsAgree => "beacons-agree",
+        /// The other beacons agree, and this one fits another place of it.
+        BeaconMoved => "beacon-moved",
+        /// No place fits the ranges to the beacons.
+        BeaconsMoved => "beacons-moved",
         /// What is not swept yet cannot be reached.
         RestOutOfReach => "rest-out-of-reach",
         /// Less than half of what was asked could be swept.

@@ -58,6 +58,11 @@ const fn shown(value: f64) -> f64 {
     }
 }
 
+/// A share in percent.
+const fn percent(share: f64) -> f64 {
+    100.0 * share.clamp(0.0, 1.0)
+}
+
 const BY_STATISTICS: &str = "Cleaning started without a map; statistics estimate how much is clean";
 const BY_MAP: &str = "Cleaned what its map shows; how much of the home that is cannot be said";
 
@@ -82,15 +87,15 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::TakeUpGyro => "Uses its gyro again".to_owned(),
         DecisionKind::FindHeading => "Drives about to find its heading".to_owned(),
         DecisionKind::HeadingFound => format!("Found its heading after {value:.0} m"),
+        DecisionKind::SearchPlace => "Looks for its position by its radio beacons".to_owned(),
+        DecisionKind::PlaceFound => format!("Found its position by its radio beacons after {value:.0} m"),
+        DecisionKind::ForgetBeacons => format!("Forgot where radio beacon {value:.0} was"),
         DecisionKind::TakeFix => "Drives to walls, to know its position better".to_owned(),
         DecisionKind::FixTaken => "Went on, with its position known better".to_owned(),
         DecisionKind::LeaveWall => "Left the wall".to_owned(),
         DecisionKind::Withdraw => "Undid the last part of the map".to_owned(),
         DecisionKind::Spiral => "Began a spiral".to_owned(),
-        DecisionKind::Covered => format!(
-            "Cleaned {:.0} % of the reachable floor",
-            100.0 * value.clamp(0.0, 1.0)
-        ),
+        DecisionKind::Covered => format!("Cleaned {:.0} % of the reachable floor", percent(value)),
         DecisionKind::CoveredByMap => BY_MAP.to_owned(),
         DecisionKind::DoubtMap => "Doubts its map".to_owned(),
         DecisionKind::Bounce => "Bounced to get out of this place".to_owned(),

@@ -7,6 +7,7 @@ use super::hop::{Hop, HopRange};
 use super::located_range::LocatedRange;
 use super::multilateration::{MeasuredRange, locate_beacon};
 use super::parameters::{FILTER, KNOWN, RANGE, SLIP};
+use super::weight::robust_square;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -30,6 +31,22 @@ pub(super) struct InitialState<'batch> {
     pub(super) covariance: Vec<Vec<f64>>,
 }
 
+/// How badly ranges were predicted.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Misfit {
+    /// Sum of their robust squares.
+    pub(super) sum: f64,
+    /// Number of ranges.
+    pub(super) count: u32,
+}
+
+impl Misfit {
+    fn add(&mut self, robust_square: f64) {
+        self.sum += robust_square;
+        self.count += 1;
+    }
+}
+
 /// The filter.
 #[derive(Clone, Debug)]
 pub(super) struct BeaconFilter {
@@ -43,6 +60,8 @@ pub(super) struct BeaconFilter {
     slips: u32,
     /// Ranges to beacons that are not located yet.
     late: Vec<(u16, MeasuredRange)>,
+    /// A beacon that was left out; the errors of its ranges stay its own when it is located anew.
+    left_out: Option<Beacon>,
 }
 
 impl BeaconFilter {
@@ -55,6 +74,7 @@ impl BeaconFilter {
             unexplained: 0.0,
             slips: 0,
             late: Vec::new(),
+            left_out: None,
         }
     }
 
@@ -72,7 +92,7 @@ impl BeaconFilter {
         }
     }
 
-    /// Drops a beacon.
+    /// Drops a beacon by its index.
     fn forget(&mut self, number: usize) {
         let at = BEACONS + BEACON * number;
         self.beacons.remove(number);
@@ -107,30 +127,43 @@ impl BeaconFilter {
         }
     }
 
-    fn index_of(&self, beacon: u16) -> Option<usize> {
+    /// Leaves a beacon out that may have been moved, and locates it anew.
+    pub(super) fn leave_out(&mut self, number: usize) {
+        self.left_out = self.beacons.get(number).copied();
+        self.forget(number);
+    }
+
+    /// A beacon of which nothing but the errors of its ranges is known, if these are.
+    fn unlocated(&self, number: u16) -> Beacon {
+        let known = self.left_out.filter(|left_out| left_out.number == number);
+        known.unwrap_or_else(|| Beacon::new(number, Point2 { x_m: 0.0, y_m: 0.0 }))
+    }
+
+    pub(super) fn index_of(&self, beacon: u16) -> Option<usize> {
         self.beacons.iter().position(|known| known.number == beacon)
     }
 
-    /// Predicts the motion of a hop and updates with its ranges.
-    pub(super) fn take(&mut self, hop: &Hop) {
+    /// Predicts the motion of a hop and updates with its ranges. Gives how badly it had predicted them.
+    pub(super) fn take(&mut self, hop: &Hop) -> Misfit {
+        let mut misfit = Misfit::default();
         self.advance(hop);
         if let Some(anchor) = &hop.anchor {
             self.compare_with_map(anchor);
         }
         self.watch_slip(hop);
-        self.forget_moved();
         for range in &hop.ranges {
             match self.index_of(range.beacon) {
-                Some(beacon) => self.compare(range, beacon),
+                Some(beacon) => misfit.add(self.compare(range, beacon)),
                 None => self.keep(
                     range.beacon,
                     MeasuredRange {
                         from: self.pose.transform(range.at),
-                        range_m: range.range_m,
+                        range_m: range.range_m - self.unlocated(range.beacon).bias_m,
                     },
                 ),
             }
         }
+        misfit
     }
 
     /// When hop after hop most ranges contradict the estimate, the wheels have slipped or something pushed the robot: single wrong
@@ -258,9 +291,10 @@ impl BeaconFilter {
             .unwrap_or(0.0)
     }
 
-    fn compare(&mut self, range: &HopRange, beacon: usize) {
+    /// Updates with a range. Gives how badly it was predicted.
+    fn compare(&mut self, range: &HopRange, beacon: usize) -> f64 {
         let Some(known) = self.beacons.get(beacon).copied() else {
-            return;
+            return 0.0;
         };
         let innovation = known.innovation(self.pose, self.errors, range);
         let predicted = innovation.predicted;
@@ -291,6 +325,7 @@ impl BeaconFilter {
         let variance_m2 = own_m2 + innovation.noise_m2 / innovation.weight(own_m2);
         self.correct(&gains, innovation.off_m / variance_m2);
         self.shrink(&gains, variance_m2);
+        robust_square(innovation.off_m / libm::sqrt(own_m2 + innovation.noise_m2))
     }
 
     fn correct(&mut self, gains: &[f64], by: f64) {
@@ -333,7 +368,11 @@ impl BeaconFilter {
 
     /// Adds a beacon to the state. Its position has the error of the pose and an error of its own.
     fn add_beacon(&mut self, beacon: u16, place: Point2) {
-        self.beacons.push(Beacon::new(beacon, place));
+        self.beacons.push(Beacon {
+            place,
+            unexplained: 0.0,
+            ..self.unlocated(beacon)
+        });
         for row in &mut self.covariance {
             let (x, y) = (row.first().copied(), row.get(1).copied());
             row.extend([x.unwrap_or(0.0), y.unwrap_or(0.0), 0.0]);

@@ -2,7 +2,8 @@
 //!
 //! *Hop*: the motion between two moments at which ranges are used. *Smoother*: solves the whole path so far for its poses, the errors
 //! of the robot and the positions of the beacons ([`smoother`]). *Filter*: estimates all of these from there on, hop by hop
-//! ([`filter`]), until the smoother has a better solution. Odometry gives the pose until it has the first one.
+//! ([`filter`]), until the smoother has a better solution. Odometry gives the pose until it has the first one. Beacons that an earlier run
+//! has located hold, and the robot is looked for between them ([`kept`]).
 //!
 //! Ranges have large errors: walls lengthen them, and some take a detour. So outliers have next to no weight, each beacon has a bias and
 //! an error of its own that stays the same around a place, and a robot that turns on the spot learns nothing of that.
@@ -10,6 +11,7 @@
 mod beacon;
 mod filter;
 mod hop;
+mod kept;
 mod located_range;
 mod multilateration;
 mod parameters;
@@ -26,6 +28,8 @@ use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 use filter::BeaconFilter;
 use hop::{Anchor, Hop, HopBuilder, HopEnd, HopRange};
+pub(crate) use kept::BeaconEvent;
+use kept::KeptBeacons;
 pub(super) use located_range::LocatedRange;
 use parameters::{BATCH, HEADING, KNOWN, REDRAW};
 use smoother::BatchSmoother;
@@ -40,8 +44,8 @@ pub(super) struct Beacons {
     tells_heading: bool,
     /// Beacons that an earlier run has located.
     known: Vec<KnownBeacon>,
-    /// Distance since the start between known beacons, metres, while it is not sure that they are where they were.
-    trial_m: Option<f64>,
+    /// What was decided since it was asked last.
+    events: Vec<BeaconEvent>,
     anchors: Anchors,
     drawing: Drawing,
 }
@@ -74,6 +78,8 @@ enum BeaconStage {
     Silent,
     Initializing(Box<BatchSmoother>),
     Following(Box<BeaconFilter>, Option<Box<BatchSmoother>>),
+    /// Beacons of an earlier run are the reference.
+    Kept(Box<KeptBeacons>),
     /// Somebody carried the robot to an unknown place.
     Carried,
 }
@@ -87,7 +93,7 @@ impl Beacons {
             located_ranges: Vec::new(),
             tells_heading: false,
             known: Vec::new(),
-            trial_m: None,
+            events: Vec::new(),
             anchors: Anchors::default(),
             drawing: Drawing::default(),
         }
@@ -101,9 +107,9 @@ impl Beacons {
     /// The beacons as they are worth keeping; `None` where they may not lie in the frame of the map.
     pub(super) fn to_keep(&self, is_by_map: bool) -> Option<Vec<KnownBeacon>> {
         let is_aligned = !is_by_map || self.anchors.count >= KNOWN.anchors_min;
-        let is_sure = self.tells_heading && self.trial_m.is_none() && is_aligned;
         match &self.stage {
-            BeaconStage::Following(filter, _) if is_sure => Some(filter.known()),
+            BeaconStage::Following(filter, _) if self.tells_heading && is_aligned => Some(filter.known()),
+            BeaconStage::Kept(kept) if self.tells_heading => Some(kept.to_keep()),
             _ => None,
         }
     }
@@ -153,7 +159,7 @@ impl Beacons {
     /// Goes on with a solution of the path, and adopts it.
     fn go_on(&mut self) -> Option<PoseEstimate> {
         match &mut self.stage {
-            BeaconStage::Silent | BeaconStage::Carried => None,
+            BeaconStage::Silent | BeaconStage::Carried | BeaconStage::Kept(_) => None,
             BeaconStage::Initializing(batch) => {
                 let found = batch.go_on()?;
                 let estimate = self.gathering.ahead_of(found.estimate());
@@ -197,48 +203,25 @@ impl Beacons {
     }
 
     /// Begins between known beacons, if the robot hears some of them.
-    fn begin_between_known(&mut self, hop: &Hop, before: PoseEstimate) -> Option<PoseEstimate> {
+    fn begin_between_known(&mut self, hop: &Hop, before: PoseEstimate) -> bool {
         let is_known = |range: &&HopRange| self.known.iter().any(|known| known.number == range.beacon);
-        if hop.ranges.iter().filter(is_known).count() < BATCH.beacons_min {
-            return None;
+        let hears_enough = hop.ranges.iter().filter(is_known).count() >= BATCH.beacons_min;
+        if hears_enough {
+            self.stage = BeaconStage::Kept(Box::new(KeptBeacons::new(&self.known, before)));
         }
-        let mut filter = BeaconFilter::between(&self.known, before);
-        filter.take(&Hop {
-            step: Pose2::IDENTITY,
-            ..hop.clone()
-        });
-        let estimate = filter.estimate();
-        self.trial_m = Some(0.0);
-        self.stage = BeaconStage::Following(Box::new(filter), None);
-        Some(estimate)
-    }
-
-    /// Whether known beacons turn out to be elsewhere, or the robot: then all is solved anew.
-    fn fails_trial(&mut self, length_m: f64) -> bool {
-        let (BeaconStage::Following(filter, _), Some(trial_m)) = (&self.stage, &mut self.trial_m) else {
-            return false;
-        };
-        *trial_m += length_m;
-        let fails = filter.slips() >= KNOWN.trial_slips;
-        if fails || *trial_m >= KNOWN.trial_m {
-            self.trial_m = None;
-        }
-        if fails {
-            self.known.clear();
-            self.stage = BeaconStage::Silent;
-        }
-        fails
+        hears_enough
     }
 
     fn use_hop(&mut self, hop: Hop, before: PoseEstimate) -> Option<PoseEstimate> {
-        if self.fails_trial(hop.length_m) {
-            return None;
-        }
         match &mut self.stage {
             BeaconStage::Carried => None,
             BeaconStage::Silent => {
-                if let Some(estimate) = self.begin_between_known(&hop, before) {
-                    return Some(estimate);
+                if self.begin_between_known(&hop, before) {
+                    // The estimate is that at the end of this hop.
+                    return self.use_kept(&Hop {
+                        step: Pose2::IDENTITY,
+                        ..hop
+                    });
                 }
                 if !hop.ranges.is_empty() {
                     self.stage = BeaconStage::Initializing(Box::new(BatchSmoother::new(before)));
@@ -252,8 +235,12 @@ impl Beacons {
                 }
                 None
             }
+            BeaconStage::Kept(_) => self.use_kept(&hop),
             BeaconStage::Following(filter, batch) => {
                 filter.take(&hop);
+                if let Some(number) = filter.forget_moved() {
+                    self.events.push(BeaconEvent::Moved { number });
+                }
                 filter.locate_ranges(&hop, &mut self.located_ranges);
                 let estimate = filter.estimate();
                 if batch.as_ref().is_some_and(|batch| batch.is_long()) {
@@ -267,6 +254,25 @@ impl Beacons {
         }
     }
 
+    /// Follows a hop between known beacons.
+    fn use_kept(&mut self, hop: &Hop) -> Option<PoseEstimate> {
+        let BeaconStage::Kept(kept) = &mut self.stage else {
+            return None;
+        };
+        let event = kept.take(hop);
+        kept.locate_ranges(hop, &mut self.located_ranges);
+        let estimate = kept.estimate();
+        if kept.is_refuted() {
+            let number_of = |known: KnownBeacon| known.number;
+            let numbers = self.known.drain(..).map(number_of);
+            self.events
+                .extend(numbers.map(|number| BeaconEvent::Refuted { number }));
+            self.stage = BeaconStage::Silent;
+        }
+        self.events.extend(event);
+        estimate
+    }
+
     /// Decides whether the heading is known well enough to draw a map.
     fn judge_heading(&mut self, estimate: Option<PoseEstimate>) {
         let sigma_max_rad = if self.tells_heading {
@@ -274,10 +280,15 @@ impl Beacons {
         } else {
             HEADING.known_sigma_rad
         };
-        self.tells_heading = match estimate {
-            Some(estimate) => estimate.sigma_rad <= sigma_max_rad,
-            None => self.tells_heading && self.is_following(),
+        let is_confirmed = match &self.stage {
+            BeaconStage::Kept(kept) => kept.is_confirmed(),
+            _ => true,
         };
+        self.tells_heading = is_confirmed
+            && match estimate {
+                Some(estimate) => estimate.sigma_rad <= sigma_max_rad,
+                None => self.tells_heading && self.is_following(),
+            };
     }
 
     /// Whether the heading is known well enough to draw a map.
@@ -295,6 +306,10 @@ impl Beacons {
             self.gathering = HopBuilder::default();
             self.stage = match core::mem::replace(&mut self.stage, BeaconStage::Silent) {
                 BeaconStage::Silent => BeaconStage::Silent,
+                BeaconStage::Kept(mut kept) => {
+                    self.events.push(kept.lose());
+                    BeaconStage::Kept(kept)
+                }
                 BeaconStage::Initializing(_) | BeaconStage::Following(..) | BeaconStage::Carried => {
                     BeaconStage::Carried
                 }
@@ -310,7 +325,27 @@ impl Beacons {
 
     /// Whether beacons determine the pose.
     pub(super) fn is_following(&self) -> bool {
-        matches!(self.stage, BeaconStage::Following(..))
+        match &self.stage {
+            BeaconStage::Following(..) => true,
+            BeaconStage::Kept(kept) => !kept.is_searching(),
+            BeaconStage::Silent | BeaconStage::Initializing(_) | BeaconStage::Carried => false,
+        }
+    }
+
+    /// Whether the robot looks for its place between beacons.
+    pub(super) fn is_searching(&self) -> bool {
+        matches!(&self.stage, BeaconStage::Kept(kept) if kept.is_searching())
+    }
+
+    /// What was decided since the last call.
+    pub(super) fn take_events(&mut self) -> Vec<BeaconEvent> {
+        core::mem::take(&mut self.events)
+    }
+
+    /// Whether the place was found in this step.
+    pub(super) fn has_found_place(&self) -> bool {
+        let is_found = |event: &BeaconEvent| matches!(event, BeaconEvent::PlaceFound { .. });
+        self.events.iter().any(is_found)
     }
 
     /// Ranges of the last hop to located beacons; empty between hops.
@@ -325,6 +360,7 @@ impl Beacons {
                 follower.place_at(pose);
                 *batch = None;
             }
+            BeaconStage::Kept(kept) => kept.place_at(pose),
             BeaconStage::Initializing(_) | BeaconStage::Carried => self.stage = BeaconStage::Silent,
             BeaconStage::Silent => {}
         }
@@ -335,6 +371,7 @@ impl Beacons {
     pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {
             BeaconStage::Following(follower, _) => follower.places(),
+            BeaconStage::Kept(kept) => kept.places(),
             BeaconStage::Silent | BeaconStage::Initializing(_) | BeaconStage::Carried => Vec::new(),
         }
     }

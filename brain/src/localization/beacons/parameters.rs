@@ -239,14 +239,10 @@ pub(super) struct KnownParameters {
     /// Least standard deviations of the pose at the start between known beacons: the map may lie a little askew on the dock.
     pub(super) start_sigma_min_m: f64,
     pub(super) start_sigma_min_rad: f64,
-    /// Least standard deviation of a known beacon, metres.
-    pub(super) beacon_sigma_min_m: f64,
+    /// Least standard deviation of the error that stays the same around a place, metres: a short run learns too little of it.
+    pub(super) place_sigma_min_m: f64,
     /// Standard deviation of the bias of a known beacon, metres.
     pub(super) bias_sigma_m: f64,
-    /// Within this distance from the start, metres,
-    pub(super) trial_m: f64,
-    /// so many slips say that the robot is elsewhere or that the beacons were moved.
-    pub(super) trial_slips: u32,
     /// Weight of one range in the share of a beacon's that are not explained.
     pub(super) share: f64,
     /// Beyond this share the beacon was moved,
@@ -267,10 +263,8 @@ pub(super) struct KnownParameters {
 pub(super) const KNOWN: KnownParameters = KnownParameters {
     start_sigma_min_m: 0.05,
     start_sigma_min_rad: 0.06,
-    beacon_sigma_min_m: 0.08,
+    place_sigma_min_m: 0.2,
     bias_sigma_m: 0.1,
-    trial_m: 10.0,
-    trial_slips: 2,
     share: 0.02,
     moved_share: 0.85,
     others_share: 0.3,

@@ -1,7 +1,9 @@
 //! A robot with bad wheels and no gyro drives between beacons.
 
 use super::super::Localization;
+use super::BeaconEvent;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::{BeaconRange, BeaconSignal, BeaconStrength, Observation};
 use crate::model::random::Random;
 
@@ -25,6 +27,8 @@ struct BeaconRobot {
     delay_m: f64,
     /// The antenna sits so far ahead of the wheels, metres.
     antenna_m: f64,
+    /// Where the beacons are.
+    beacons: Vec<Point2>,
 }
 
 impl BeaconRobot {
@@ -41,6 +45,7 @@ impl BeaconRobot {
             steps: 0,
             delay_m: 0.0,
             antenna_m: 0.0,
+            beacons: BEACONS.to_vec(),
         }
     }
 
@@ -80,12 +85,12 @@ impl BeaconRobot {
     }
 
     fn range(&mut self) {
-        let turn = self.steps % BEACONS.len();
+        let turn = self.steps % self.beacons.len();
         let antenna = self.pose.transform(Point2 {
             x_m: self.antenna_m,
             y_m: 0.0,
         });
-        let away_m = BEACONS[turn].distance_m(antenna);
+        let away_m = self.beacons[turn].distance_m(antenna);
         let detour_m = if self.random.between(0.0, 1.0) < 0.05 {
             2.5
         } else {
@@ -292,5 +297,204 @@ fn the_pose_stays_finite_with_any_input() {
         take(&mut localization, &view);
         let pose = localization.pose();
         assert!((pose.x_m + pose.y_m + pose.heading_rad).is_finite());
+    }
+}
+
+/// What an earlier run has kept: the beacons where they are, to a decimetre.
+fn kept(beacons: &[Point2]) -> Vec<KnownBeacon> {
+    let mut random = Random::new(99);
+    (10..)
+        .zip(beacons)
+        .map(|(number, place)| KnownBeacon {
+            number,
+            place: Point2 {
+                x_m: place.x_m + 0.07 * random.normal(),
+                y_m: place.y_m + 0.07 * random.normal(),
+            },
+            bias_m: 0.0,
+            sigma_m: 0.1,
+            place_sigma_m: 0.15,
+        })
+        .collect()
+}
+
+/// The next run of a robot that thinks that it stands where the last one began.
+struct NextRun {
+    truth: BeaconRobot,
+    localization: Localization,
+    kept: Vec<KnownBeacon>,
+    events: Vec<(u64, BeaconEvent)>,
+}
+
+impl NextRun {
+    fn new(seed: u64, kept_beacons: &[Point2], beacons: Vec<Point2>) -> Self {
+        let mut truth = BeaconRobot::new(seed);
+        let mut localization = placed(truth.pose);
+        truth.beacons = beacons;
+        let kept = kept(kept_beacons);
+        localization.begin_with_beacons(&kept);
+        Self {
+            truth,
+            localization,
+            kept,
+            events: Vec::new(),
+        }
+    }
+
+    fn pass_s(&mut self, seconds: u64) {
+        for _ in 0..20 * seconds {
+            take(&mut self.localization, self.truth.step());
+            let now_s = self.truth.view.time_us / 1_000_000;
+            let new = self.localization.take_beacon_events();
+            self.events.extend(new.into_iter().map(|event| (now_s, event)));
+        }
+    }
+
+    /// What is kept of it.
+    fn to_keep(&mut self) -> Option<Vec<KnownBeacon>> {
+        self.localization.beacons_to_keep(self.truth.view.time_us)
+    }
+}
+
+#[test]
+fn between_kept_beacons_nothing_is_doubted_and_they_hold_exactly() {
+    for seed in 1..=8 {
+        let mut run = NextRun::new(seed, &BEACONS, BEACONS.to_vec());
+        run.pass_s(1_200);
+        assert_eq!(run.events, [], "seed {seed}");
+        assert_eq!(run.to_keep(), Some(run.kept.clone()), "seed {seed}");
+        let (off_m, off_rad) = run.truth.off(&run.localization);
+        assert!(
+            off_m < 0.4 && off_rad < 0.2,
+            "seed {seed}: {off_m} m, {off_rad} rad"
+        );
+    }
+}
+
+/// Where the robot really stands in the next run.
+const ELSEWHERE: [Pose2; 4] = [
+    Pose2 {
+        x_m: 5.0,
+        y_m: 3.0,
+        heading_rad: -2.0,
+    },
+    Pose2 {
+        x_m: 3.0,
+        y_m: 2.5,
+        heading_rad: 3.0,
+    },
+    Pose2 {
+        x_m: 1.2,
+        y_m: 3.4,
+        heading_rad: -1.0,
+    },
+    Pose2 {
+        x_m: 4.0,
+        y_m: 0.5,
+        heading_rad: 1.5,
+    },
+];
+
+/// Asserts that the place is known.
+fn assert_in_place(run: &NextRun, what: &str) {
+    let (off_m, off_rad) = run.truth.off(&run.localization);
+    assert!(off_m < 0.5 && off_rad < 0.25, "{what}: {off_m} m, {off_rad} rad");
+}
+
+/// Distance until the place was found, metres, if a search for it was all that happened.
+fn found_after_m(run: &NextRun) -> Option<f64> {
+    match run.events[..] {
+        [
+            (_, BeaconEvent::SearchPlace | BeaconEvent::Carried),
+            (_, BeaconEvent::PlaceFound { driven_m }),
+        ] => Some(driven_m),
+        _ => None,
+    }
+}
+
+#[test]
+fn a_robot_that_was_put_elsewhere_finds_its_place_between_kept_beacons() {
+    let mut found = 0;
+    for (seed, place) in (1..).zip(ELSEWHERE) {
+        for heard in [3, 4] {
+            let what = format!("seed {seed}, {heard} beacons");
+            let beacons = BEACONS[..heard].to_vec();
+            let mut run = NextRun::new(seed, &beacons, beacons.clone());
+            run.truth.pose = place;
+            run.pass_s(60);
+            assert_in_place(&run, &what);
+            assert_eq!(run.to_keep(), Some(run.kept.clone()), "{what}: nothing is lost");
+            // A filter may get there without a search from a place that is not far.
+            found += u32::from(found_after_m(&run).is_some());
+        }
+    }
+    assert!(found >= 5, "{found} of 8");
+}
+
+#[test]
+fn beacons_in_line_leave_the_mirrored_place_open_until_motion_decides() {
+    let in_line: Vec<Point2> = [-0.5, 3.0, 6.5].map(|x_m| Point2 { x_m, y_m: -0.4 }).to_vec();
+    for seed in [1, 3, 4] {
+        let mut run = NextRun::new(seed, &in_line, in_line.clone());
+        run.truth.pose = ELSEWHERE[seed as usize - 1];
+        run.pass_s(180);
+        let found_m = found_after_m(&run);
+        assert!(
+            found_m.is_some_and(|found_m| found_m > 2.0),
+            "seed {seed}: {:?}",
+            run.events
+        );
+        assert_in_place(&run, &format!("seed {seed}"));
+    }
+}
+
+#[test]
+fn a_robot_that_was_lifted_finds_its_place_between_kept_beacons() {
+    for (seed, place) in (1..).zip(ELSEWHERE) {
+        let mut run = NextRun::new(seed, &BEACONS, BEACONS.to_vec());
+        run.pass_s(60);
+        run.truth.view.wheel_drop = true;
+        for _ in 0..60 {
+            run.truth.view.time_us += 50_000;
+            take(&mut run.localization, &run.truth.view);
+        }
+        run.truth.view.wheel_drop = false;
+        run.truth.pose = place;
+        run.pass_s(60);
+        assert!(found_after_m(&run).is_some(), "seed {seed}: {:?}", run.events);
+        assert_in_place(&run, &format!("seed {seed}"));
+    }
+}
+
+/// Beacons of which one was moved by so much in a direction of the seed, with its index.
+fn one_moved(heard: usize, by_m: f64, seed: u64) -> (Vec<Point2>, usize) {
+    let mut beacons = BEACONS[..heard].to_vec();
+    let index = seed as usize % heard;
+    let (sin, cos) = f64::sin_cos(2.4 * seed as f64);
+    beacons[index].x_m += by_m * cos;
+    beacons[index].y_m += by_m * sin;
+    (beacons, index)
+}
+
+#[test]
+fn a_beacon_that_was_moved_by_a_metre_is_named_and_located_anew() {
+    for heard in [3, 4] {
+        for by_m in [1.0, 2.0, 3.0] {
+            for seed in 1..=4 {
+                let (beacons, index) = one_moved(heard, by_m, seed);
+                let (number, place) = (10 + index as u16, beacons[index]);
+                let mut run = NextRun::new(seed, &BEACONS[..heard], beacons);
+                run.pass_s(600);
+                let told: Vec<BeaconEvent> = run.events.iter().map(|event| event.1).collect();
+                let what = format!("{heard} beacons, {by_m} m, seed {seed}: {:?}", run.events);
+                assert_eq!(told, [BeaconEvent::Moved { number }], "{what}");
+                let now = run.to_keep().expect("it knows its heading");
+                let located = now.iter().find(|known| known.number == number);
+                let off_m = located.map(|known| known.place.distance_m(place));
+                assert!(off_m.is_some_and(|off_m| off_m < 0.3), "{what}: {off_m:?}");
+                let others = run.kept.iter().filter(|known| known.number != number);
+                assert!(others.into_iter().all(|old| now.contains(old)), "{what}");
+            }
+        }
     }
 }

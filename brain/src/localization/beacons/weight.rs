@@ -9,3 +9,9 @@ pub(super) fn weight(off: f64) -> f64 {
     let share = SCALE / (SCALE + off * off);
     (share * share).max(1e-9)
 }
+
+/// The square of a deviation as that kernel counts it: hardly more than [`SCALE`] for any outlier, so that single ones decide nothing.
+pub(super) fn robust_square(off: f64) -> f64 {
+    let square = (off * off).min(1e9);
+    SCALE * square / (SCALE + square)
+}

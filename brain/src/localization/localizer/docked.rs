@@ -92,6 +92,9 @@ impl Localization {
     #[must_use]
     pub fn may_draw(&self) -> bool {
         let is_told = |known: &KnownMap| known.tracker.unconfirmed_beams() > 0;
+        if self.has_lost_place() {
+            return false;
+        }
         !self.estimator.known_map().is_some_and(is_told) || self.drift.sigma_m <= PLACING.confirmed_sigma_m
     }
 }

@@ -3,7 +3,8 @@
 use super::Localization;
 use super::consistency_monitor::ConsistencyMonitor;
 use super::parameters::PLACING;
-use crate::localization::beacons::PriorEstimate;
+use crate::localization::beacons::{BeaconEvent, PriorEstimate};
+use crate::localization::drift::Drift;
 use crate::localization::line_slam::LineSlam;
 use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
@@ -110,6 +111,39 @@ impl Localization {
     /// Begins with beacons that an earlier run has located, in the frame of the present map.
     pub(crate) fn begin_with_beacons(&mut self, known: &[KnownBeacon]) {
         self.beacons.begin_with(known);
+    }
+
+    /// What the beacons have decided since the last call.
+    pub(crate) fn take_beacon_events(&mut self) -> Vec<BeaconEvent> {
+        self.beacons.take_events()
+    }
+
+    /// Whether the robot looks for its place between beacons, and sees too little to know it by a map.
+    pub(super) fn has_lost_place(&self) -> bool {
+        let sees = self
+            .estimator
+            .known_map()
+            .is_some_and(|known| !known.tracker.is_blind());
+        self.beacons.is_searching() && !sees
+    }
+
+    /// The place between beacons was found. A robot that sees enough knows its place in its map by itself.
+    pub(super) fn take_place(&mut self, found: PoseEstimate) {
+        self.odometry.calibration.interrupt();
+        let odom = self.odometry.odom_from_base();
+        match &mut self.estimator {
+            Estimator::LineSlam(first_run) => first_run.slam.begin_at(found.pose, odom),
+            Estimator::MonteCarlo(known) if known.tracker.is_blind() || known.tracker.is_lost() => {
+                known.tracker.place_at(found.pose, found.sigma_m, found.sigma_rad);
+            }
+            Estimator::MonteCarlo(_) => return,
+            Estimator::Odometry => {}
+        }
+        self.set_pose(found.pose);
+        self.drift = Drift {
+            sigma_m: found.sigma_m,
+            sigma_rad: found.sigma_rad,
+        };
     }
 
     /// The located beacons as they are worth keeping with the map, now and then.

@@ -18,7 +18,7 @@ use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
 use super::reverse_budget::ReverseBudget;
 use super::rssi_fingerprint::RssiFingerprints;
-use super::tracker::{MotionUpdate, SENSORS_MIN};
+use super::tracker::MotionUpdate;
 use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
@@ -210,6 +210,11 @@ impl Localization {
 
     fn update_pose(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.prior());
+        if self.beacons.has_found_place()
+            && let Some(found) = by_beacons
+        {
+            self.take_place(found);
+        }
         self.leave_useless_map(observation.time_us);
         let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
         match (self.active_estimator(), by_beacons) {
@@ -306,6 +311,7 @@ impl Localization {
     pub fn knows_heading(&self, now_us: u64) -> bool {
         self.has_gyro(now_us)
             || match self.active_estimator() {
+                _ if self.has_lost_place() => false,
                 EstimatorKind::Beacons => self.beacons.tell_heading(),
                 EstimatorKind::MonteCarlo => true,
                 EstimatorKind::LineSlam | EstimatorKind::Odometry => false,
@@ -342,7 +348,7 @@ impl Localization {
         let blind = self
             .estimator
             .known_map()
-            .is_some_and(|known| known.tracker.sensor_count() < SENSORS_MIN);
+            .is_some_and(|known| known.tracker.is_blind());
         let began_us = *self.began_us.get_or_insert(now_us);
         let waited = now_us >= began_us.saturating_add(GYRO_GONE_US);
         if blind && waited && !self.has_gyro(now_us) && !self.beacons.are_heard() {
@@ -357,10 +363,11 @@ impl Localization {
             pose: self.pose(),
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
-            lost: self
-                .estimator
-                .known_map()
-                .is_some_and(|known| known.tracker.is_lost()),
+            lost: self.has_lost_place()
+                || self
+                    .estimator
+                    .known_map()
+                    .is_some_and(|known| known.tracker.is_lost()),
             odom: self.odometry.odom_from_base(),
         }
     }

@@ -154,6 +154,15 @@ impl Beacons {
         }
     }
 
+    /// The same beacons, of which somebody has moved one by so much, metres. A number that there is not is ignored.
+    #[must_use]
+    pub fn with_moved(mut self, number: usize, by_m: (f64, f64)) -> Self {
+        if let Some(place) = self.places.get_mut(number) {
+            *place = (place.0 + by_m.0, place.1 + by_m.1);
+        }
+        self
+    }
+
     /// Places of the beacons in the plan frame, metres.
     #[must_use]
     pub fn places(&self) -> &[(f64, f64)] {

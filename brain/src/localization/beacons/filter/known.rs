@@ -10,14 +10,13 @@ use crate::model::known_beacon::KnownBeacon;
 use crate::model::pose_estimate::PoseEstimate;
 
 impl BeaconFilter {
-    /// Begins between known beacons.
+    /// Begins between kept beacons, whose places hold exactly: their errors count as errors of the ranges.
     pub(in crate::localization::beacons) fn between(known: &[KnownBeacon], start: PoseEstimate) -> Self {
         let beacons: Vec<Beacon> = known
             .iter()
             .map(|known| Beacon {
                 bias_m: known.bias_m,
-                place_sigma_m: known
-                    .place_sigma_m
+                place_sigma_m: libm::hypot(known.place_sigma_m.max(KNOWN.place_sigma_min_m), known.sigma_m)
                     .clamp(RANGE.place_sigma_min_m, RANGE.place_sigma_max_m),
                 ..Beacon::new(known.number, known.place)
             })
@@ -32,9 +31,8 @@ impl BeaconFilter {
             FILTER.antenna_sigma_m,
             FILTER.antenna_sigma_m,
         ];
-        for known in known {
-            let sigma_m = known.sigma_m.max(KNOWN.beacon_sigma_min_m);
-            sigmas.extend([sigma_m, sigma_m, KNOWN.bias_sigma_m]);
+        for _ in known {
+            sigmas.extend([0.0, 0.0, KNOWN.bias_sigma_m]);
         }
         let count = sigmas.len();
         let covariance = sigmas
@@ -56,6 +54,7 @@ impl BeaconFilter {
             unexplained: 0.0,
             slips: 0,
             late: Vec::new(),
+            left_out: None,
         }
     }
 
@@ -97,20 +96,21 @@ impl BeaconFilter {
         }
     }
 
-    /// Forgets a beacon whose ranges contradict the others for long: somebody has moved it. It is located anew.
-    pub(super) fn forget_moved(&mut self) {
+    /// Forgets a beacon whose ranges contradict the others for long: somebody has moved it. It is located anew. Gives its number.
+    pub(in crate::localization::beacons) fn forget_moved(&mut self) -> Option<u16> {
         let count = self.beacons.len();
         if count < KNOWN.others_min {
-            return;
+            return None;
         }
         let all: f64 = self.beacons.iter().map(|beacon| beacon.unexplained).sum();
         let is_moved = |beacon: &Beacon| {
             let others = (all - beacon.unexplained) / (count as f64 - 1.0);
             beacon.unexplained > KNOWN.moved_share && others < KNOWN.others_share
         };
-        if let Some(number) = self.beacons.iter().position(is_moved) {
-            self.forget(number);
-        }
+        let index = self.beacons.iter().position(is_moved)?;
+        let number = self.beacons.get(index)?.number;
+        self.forget(index);
+        Some(number)
     }
 
     /// How often ranges contradicted the estimate until it was given up.
