@@ -351,7 +351,7 @@ impl NextRun {
     }
 
     /// What is kept of it.
-    fn to_keep(&mut self) -> Option<Vec<KnownBeacon>> {
+    fn worth_keeping(&mut self) -> Option<Vec<KnownBeacon>> {
         self.localization.beacons_to_keep(self.truth.view.time_us)
     }
 }
@@ -362,7 +362,7 @@ fn between_kept_beacons_nothing_is_doubted_and_they_hold_exactly() {
         let mut run = NextRun::new(seed, &BEACONS, BEACONS.to_vec());
         run.pass_s(1_200);
         assert_eq!(run.events, [], "seed {seed}");
-        assert_eq!(run.to_keep(), Some(run.kept.clone()), "seed {seed}");
+        assert_eq!(run.worth_keeping(), Some(run.kept.clone()), "seed {seed}");
         let (off_m, off_rad) = run.truth.off(&run.localization);
         assert!(
             off_m < 0.4 && off_rad < 0.2,
@@ -423,7 +423,11 @@ fn a_robot_that_was_put_elsewhere_finds_its_place_between_kept_beacons() {
             run.truth.pose = place;
             run.pass_s(60);
             assert_in_place(&run, &what);
-            assert_eq!(run.to_keep(), Some(run.kept.clone()), "{what}: nothing is lost");
+            assert_eq!(
+                run.worth_keeping(),
+                Some(run.kept.clone()),
+                "{what}: nothing is lost"
+            );
             // A filter may get there without a search from a place that is not far.
             found += u32::from(found_after_m(&run).is_some());
         }
@@ -488,7 +492,7 @@ fn a_beacon_that_was_moved_by_a_metre_is_named_and_located_anew() {
                 let told: Vec<BeaconEvent> = run.events.iter().map(|event| event.1).collect();
                 let what = format!("{heard} beacons, {by_m} m, seed {seed}: {:?}", run.events);
                 assert_eq!(told, [BeaconEvent::Moved { number }], "{what}");
-                let now = run.to_keep().expect("it knows its heading");
+                let now = run.worth_keeping().expect("it knows its heading");
                 let located = now.iter().find(|known| known.number == number);
                 let off_m = located.map(|known| known.place.distance_m(place));
                 assert!(off_m.is_some_and(|off_m| off_m < 0.3), "{what}: {off_m:?}");

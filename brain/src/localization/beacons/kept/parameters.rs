@@ -130,7 +130,7 @@ pub(super) struct MovedParameters {
 }
 
 pub(super) const MOVED: MovedParameters = MovedParameters {
-    away_m: 0.4,
+    away_m: 0.7,
     away_sigmas: 2.5,
     sigma_min_m: 0.1,
     gain: 25.0,
