@@ -23,7 +23,7 @@ use refinement::{distinct, refined, thinned};
 
 /// Parameters of the coarse search. They are chosen by hand in simulated homes; `docs/book/src/measurements/relocalization.md` shows what
 /// they achieve together, and no record compares values of a single one.
-struct SearchParameters {
+struct GlobalSearchParameters {
     /// Blocks or poses that are tried in one step: a millisecond on a desktop core.
     tries_per_step: usize,
     /// Directions that are tried.
@@ -40,7 +40,7 @@ struct SearchParameters {
     fine: Tolerance,
 }
 
-const PARAMETERS: SearchParameters = SearchParameters {
+const PARAMETERS: GlobalSearchParameters = GlobalSearchParameters {
     tries_per_step: 300,
     directions: 72,
     solid_min: 12.0,

@@ -204,25 +204,24 @@ fn kept_home(scene: &Scene, seed: u64) -> StoredMap {
 
 /// The plan's frame in that of the kept beacons, which lies a little askew: the transform that fits best.
 fn kept_from_plan(kept: &StoredMap, places: &[(f64, f64)]) -> Pose {
-    let pairs: Vec<((f64, f64), (f64, f64))> = kept
-        .beacons()
+    let known = kept.beacons();
+    let true_places: Vec<(f64, f64)> = known
         .iter()
-        .map(|known| {
-            (
-                places[usize::from(known.number)],
-                (known.place.x_m, known.place.y_m),
-            )
-        })
+        .map(|known| places[usize::from(known.number)])
         .collect();
-    let each = 1.0 / pairs.len() as f64;
-    let middle = |of: fn(&((f64, f64), (f64, f64))) -> (f64, f64)| {
-        pairs.iter().map(of).fold((0.0, 0.0), |sum, (x_m, y_m)| {
+    let kept_places: Vec<(f64, f64)> = known
+        .iter()
+        .map(|known| (known.place.x_m, known.place.y_m))
+        .collect();
+    let middle = |places: &[(f64, f64)]| {
+        let each = 1.0 / places.len() as f64;
+        places.iter().fold((0.0, 0.0), |sum, (x_m, y_m)| {
             (sum.0 + each * x_m, sum.1 + each * y_m)
         })
     };
-    let (plan, told) = (middle(|pair| pair.0), middle(|pair| pair.1));
+    let (plan, told) = (middle(&true_places), middle(&kept_places));
     let (mut cross, mut dot) = (0.0, 0.0);
-    for (place, known) in &pairs {
+    for (place, known) in true_places.iter().zip(&kept_places) {
         let (px, py) = (place.0 - plan.0, place.1 - plan.1);
         let (kx, ky) = (known.0 - told.0, known.1 - told.1);
         cross += px * ky - py * kx;
