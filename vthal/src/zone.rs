@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use system_zone::{LOOK_EVERY, SystemZone, Unnamed, ZoneWatch};
+use system_zone::{LOOK_EVERY, SystemZone, ZoneWatch};
 use tokio::sync::mpsc::Sender;
 use vthal_core::schedule::{Zone, ZoneReading};
 
@@ -35,10 +35,5 @@ fn follow(mut watch: ZoneWatch, events: &Sender<Event>) {
 }
 
 fn reading(zone: &SystemZone) -> ZoneReading {
-    let unnamed = zone.name.as_ref().err();
-    ZoneReading {
-        name: zone.name.clone().map_err(|why| why.to_string()),
-        tried: unnamed.and_then(Unnamed::tried).map(str::to_owned),
-        wrong_variable: zone.wrong_variable.clone(),
-    }
+    ZoneReading::new(&zone.name, zone.tried(), zone.wrong_variable.as_deref())
 }

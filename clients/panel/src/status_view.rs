@@ -21,6 +21,17 @@ const DRIVEN_M: f64 = 0.05;
 /// Getting ready takes no longer, seconds.
 const READY_AFTER_S: f64 = 60.0;
 
+impl Store {
+    /// Whether the robot rests, so that a job can be begun.
+    pub(crate) fn rests(self) -> bool {
+        self.status.with(|status| {
+            status
+                .as_ref()
+                .is_some_and(|status| matches!(status.state.as_str(), "idle" | "docked"))
+        })
+    }
+}
+
 #[component]
 pub(crate) fn StatusView(store: Store) -> impl IntoView {
     let state = Memo::new(move |_| {
@@ -44,7 +55,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
         })
     });
     let is_away = Memo::new(move |_| state.get() == "disconnected");
-    let rests = Memo::new(move |_| matches!(state.get().as_str(), "idle" | "docked"));
+    let rests = Memo::new(move |_| store.rests());
     view! {
         <section class="card now" aria-labelledby="state" data-state=move || state.get() id="now">
             <div role="status" aria-live="polite">

@@ -20,20 +20,13 @@ impl Store {
 
 #[component]
 pub(crate) fn SummaryView(store: Store) -> impl IntoView {
-    let rests = move || {
-        store.status.with(|status| {
-            status
-                .as_ref()
-                .is_some_and(|status| matches!(status.state.as_str(), "idle" | "docked"))
-        })
-    };
     let summary = Memo::new(move |_| {
         let run = store.history.newest()?;
         let summary = run_summary(words(), &run)?;
         Some((run.end_s.map(|end_s| date_text(Some(end_s))), summary))
     });
     view! {
-        <Show when=move || rests() && summary.get().is_some()>
+        <Show when=move || store.rests() && summary.get().is_some()>
             <p class="summary" id="summary">
                 <strong>{words().status.last_job}</strong>
                 " "

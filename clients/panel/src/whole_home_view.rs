@@ -11,14 +11,7 @@ const CHARGE_STEPS: f64 = 10.0;
 #[component]
 pub(crate) fn WholeHomeView(store: Store) -> impl IntoView {
     let orders = store.orders;
-    let rests = Memo::new(move |_| {
-        store.status.with(|status| {
-            status
-                .as_ref()
-                .is_some_and(|status| matches!(status.state.as_str(), "idle" | "docked"))
-        })
-    });
-    let has_home = Memo::new(move |_| store.rooms.with(|rooms| !rooms.is_empty()));
+    let rests = Memo::new(move |_| store.rests());
     let charge = Memo::new(move |_| {
         store.device.with(|table| {
             let battery = table.as_ref().and_then(|table| table.battery.as_ref());
@@ -27,9 +20,9 @@ pub(crate) fn WholeHomeView(store: Store) -> impl IntoView {
     });
     Effect::new(move |_| {
         charge.track();
-        store.rooms.track();
         orders.no_go.track();
-        if rests.get() && has_home.get() {
+        let has_rooms = store.rooms.with(|rooms| !rooms.is_empty());
+        if rests.get() && has_rooms {
             store.ask_whole_home();
         } else {
             orders.whole_home.set(None);

@@ -36,6 +36,14 @@ pub struct SystemZone {
     pub wrong_variable: Option<String>,
 }
 
+impl SystemZone {
+    /// Without a name: the name that a link has in the place of a zone's.
+    #[must_use]
+    pub fn tried(&self) -> Option<&str> {
+        self.name.as_ref().err().and_then(Unnamed::tried)
+    }
+}
+
 /// Why a system names no zone.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unnamed {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use brain::command::StrategyName;
 use home::Pcg;
-use system_zone::{LOOK_EVERY, SystemZone, Unnamed, ZoneWatch};
+use system_zone::{LOOK_EVERY, SystemZone, ZoneWatch};
 use vthal_core::Input;
 use vthal_core::schedule::{Zone, ZoneReading};
 
@@ -259,12 +259,7 @@ fn try_passage(scene: &Scene, fault: ZoneFault, seed: u64) -> io::Result<BoardPa
 
 /// As the daemon does.
 fn reading(zone: &SystemZone) -> ZoneReading {
-    let unnamed = zone.name.as_ref().err();
-    ZoneReading {
-        name: zone.name.clone().map_err(|why| why.to_string()),
-        tried: unnamed.and_then(Unnamed::tried).map(str::to_owned),
-        wrong_variable: zone.wrong_variable.clone(),
-    }
+    ZoneReading::new(&zone.name, zone.tried(), zone.wrong_variable.as_deref())
 }
 
 /// What a client hears who comes now: the zone that schedules are in, and the reasons in the log.

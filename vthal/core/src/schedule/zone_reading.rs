@@ -1,5 +1,7 @@
 //! What a system says of its time zone.
 
+use std::fmt::Display;
+
 use super::Zone;
 
 /// Read at the start, and again when it has changed.
@@ -14,6 +16,21 @@ pub struct ZoneReading {
 }
 
 impl ZoneReading {
+    /// From the name or why there is none, what stands in the place of a name, and a `TZ` that names no zone.
+    pub fn new(
+        name: &Result<String, impl Display>,
+        tried: Option<&str>,
+        wrong_variable: Option<&str>,
+    ) -> Self {
+        Self {
+            name: name
+                .as_ref()
+                .map_or_else(|why| Err(why.to_string()), |name| Ok(name.clone())),
+            tried: tried.map(str::to_owned),
+            wrong_variable: wrong_variable.map(str::to_owned),
+        }
+    }
+
     /// The zone, or a phrase that says why there is none, with the name that may be meant.
     pub(crate) fn zone(&self) -> Result<Zone, String> {
         let name = self.name.as_ref().map_err(|why| match &self.tried {
