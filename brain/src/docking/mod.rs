@@ -13,6 +13,7 @@ mod beam_goals;
 mod centreline;
 mod dock_search;
 mod parameters;
+mod path_inputs;
 mod roam;
 mod scan;
 mod travel;
@@ -282,7 +283,7 @@ impl Docking {
 /// known.
 pub(crate) fn path_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
     let dock = known_dock(situation).ok()?;
-    Some(travel::path_length_m(dock, situation))
+    Some(path_inputs::path_length_m(dock, situation))
 }
 
 /// Pose of a docked robot, if the robot is localized and the dock is on the map.

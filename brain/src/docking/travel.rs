@@ -7,23 +7,24 @@
 use core::task::Poll;
 
 use super::parameters::TRAVEL;
-use crate::mapping::{CellKnowledge, Raster};
+use super::path_inputs::{PathInputs, length_m};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Gradual, StepBudget};
+use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
-use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::parameters::EVASION;
 use crate::navigation::{
-    Evasion, FollowStep, Goal, Inflation, Obstructions, PathFollower, PathSegment, Situation, TaskContext,
-    caution, encounter, plan_path, reachable,
+    Evasion, FollowStep, Goal, Obstructions, PathFollower, PathSegment, Situation, TaskContext, caution,
+    encounter,
 };
 
 /// The drive.
 #[derive(Debug)]
 pub(super) struct Travel {
     goals: Vec<Goal>,
+    /// Pose of a docked robot, when the goals lie before it.
+    dock: Option<Pose2>,
     clearances_m: &'static [f64],
     /// Why the robot drives there.
     reason: Reason,
@@ -67,6 +68,7 @@ impl Travel {
     pub(super) fn to_dock(dock: Pose2, past: PastFloor) -> Self {
         Self {
             past,
+            dock: Some(dock),
             ..Self::to(goals(dock), &TRAVEL.clearances_m, Reason::DockKnown)
         }
     }
@@ -79,6 +81,7 @@ impl Travel {
     fn to(goals: Vec<Goal>, clearances_m: &'static [f64], reason: Reason) -> Self {
         Self {
             goals,
+            dock: None,
             clearances_m,
             reason,
             follower: None,
@@ -191,7 +194,9 @@ impl Travel {
         context.decide(DecisionKind::Wait, Reason::Planning, 0.0);
         let blocked = self.obstructions.points(situation.observation.time_us);
         let is_blocked = !blocked.is_empty();
-        let mut inputs = PathInputs::of(situation, self.goals.clone(), blocked);
+        let mut inputs = PathInputs::of(situation, self.goals.clone());
+        inputs.blocked = blocked;
+        inputs.dock = self.dock;
         if self.past == PastFloor::Floor {
             inputs.open_past_floor(situation);
         }
@@ -209,83 +214,6 @@ struct PathSearch {
     rest: Gradual<Option<Vec<PathSegment>>>,
     /// Obstructions that are not on the map block the path.
     is_blocked: bool,
-}
-
-/// All inputs of a path search.
-#[derive(Debug)]
-struct PathInputs {
-    knowledge: Raster<CellKnowledge>,
-    body_m: f64,
-    blocked: Vec<Point2>,
-    start: Pose2,
-    goals: Vec<Goal>,
-}
-
-impl PathInputs {
-    fn of(situation: &Situation<'_>, goals: Vec<Goal>, blocked: Vec<Point2>) -> Self {
-        Self {
-            knowledge: situation.map.knowledge().clone(),
-            body_m: situation.config.body.radius_m,
-            blocked,
-            start: situation.pose,
-            goals,
-        }
-    }
-
-    /// Cells that were floor become free, whether they are occupied now or in dispute. Walls were none, and cliffs and no-go zones stay.
-    fn open_past_floor(&mut self, situation: &Situation<'_>) {
-        for index in 0..self.knowledge.values().len() {
-            let is_asked = match self.knowledge.values().get(index) {
-                Some(CellKnowledge::Occupied) => true,
-                // Nearly all that is unknown lies outside of the home.
-                Some(CellKnowledge::Unknown) => self.is_beside_floor(index),
-                _ => false,
-            };
-            if is_asked
-                && situation.map.was_floor(self.knowledge.cell(index))
-                && let Some(kind) = self.knowledge.values_mut().get_mut(index)
-            {
-                *kind = CellKnowledge::Free;
-            }
-        }
-    }
-
-    /// Whether the cell before or after this one in the row, or in the column, is free.
-    fn is_beside_floor(&self, index: usize) -> bool {
-        let values = self.knowledge.values();
-        let is_free =
-            |index: Option<usize>| index.and_then(|index| values.get(index)) == Some(&CellKnowledge::Free);
-        let width = self.knowledge.width();
-        [1, width]
-            .into_iter()
-            .any(|step| is_free(index.checked_sub(step)) || is_free(index.checked_add(step)))
-    }
-
-    /// The path with the first of these gaps that allows one.
-    async fn first_path(self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
-        let budget = &mut StepBudget::limited();
-        for gap_m in clearances_m {
-            let inflation = Inflation {
-                radius_m: self.body_m + gap_m,
-                blocked: &self.blocked,
-            };
-            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, inflation, budget).await;
-            if let Some(segments) = plan_path(&reachable_cells, self.start, &self.goals, budget).await {
-                return Some(segments);
-            }
-        }
-        None
-    }
-}
-
-/// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
-pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
-    let inputs = PathInputs::of(situation, goals(dock), Vec::new());
-    Gradual::new(async move { Some(length_m(&inputs.first_path(&TRAVEL.clearances_m[1..2]).await?)) })
-}
-
-fn length_m(segments: &[PathSegment]) -> f64 {
-    segments.iter().map(|segment| segment.length_m).sum()
 }
 
 /// Places in front of the dock, those on the centreline at a good distance first.

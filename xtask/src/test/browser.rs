@@ -26,6 +26,8 @@ pub(super) fn browser(extent: Extent) -> Result {
     std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
     let axe = axe()?;
     let mut command = cargo(&["test", "--locked", "--test", "browser", "--", "--nocapture"]);
+    // Most of a test is waiting for a robot that keeps the pace of the clock on the wall.
+    command.args(["--test-threads", "3"]);
     command
         .env("RVAC_AXE", axe)
         .env("RVAC_BROWSER_TESTS", "1")

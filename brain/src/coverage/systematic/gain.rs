@@ -9,7 +9,7 @@ pub(super) struct Gain {
     /// Time of work so far, microseconds: pauses and charges do not count.
     worked_us: u64,
     stepped_us: Option<u64>,
-    /// Most floor that was counted as swept, square metres, and the time of work when it was.
+    /// Most floor that was counted as swept since some was last taken back, square metres, and the time of work when it was.
     swept_m2: f64,
     won_us: u64,
 }
@@ -21,10 +21,13 @@ impl Gain {
         self.worked_us += now_us.saturating_sub(before_us).min(GAIN.step_max_us);
     }
 
-    /// So much floor is swept now, square metres.
+    /// So much floor is swept now, square metres. It is less than before when a correction of the pose took back what was swept
+    /// on the way to it: what is won afterwards is won, although it was counted elsewhere before.
     pub(super) fn count(&mut self, swept_m2: f64) {
         if swept_m2 >= self.swept_m2 + GAIN.worth_m2 {
             (self.swept_m2, self.won_us) = (swept_m2, self.worked_us);
+        } else if swept_m2 <= self.swept_m2 - GAIN.worth_m2 {
+            self.swept_m2 = swept_m2;
         }
     }
 
@@ -71,5 +74,21 @@ mod tests {
         work(&mut gain, now_us, 2 * GAIN.within_us);
         gain.begin_anew();
         assert!(gain.is_worth_it());
+    }
+
+    #[test]
+    fn floor_that_is_taken_back_and_swept_again_is_won() {
+        let mut gain = Gain::default();
+        gain.count(292.0);
+        let now_us = work(&mut gain, 0, GAIN.within_us / 2);
+        gain.count(276.0);
+        let now_us = work(&mut gain, now_us, GAIN.within_us / 4);
+        gain.count(276.0 + 2.0 * GAIN.worth_m2);
+        let now_us = work(&mut gain, now_us, GAIN.within_us / 2);
+        assert!(gain.is_worth_it());
+        // That it was taken back is no gain.
+        gain.count(270.0);
+        work(&mut gain, now_us, GAIN.within_us);
+        assert!(!gain.is_worth_it());
     }
 }
