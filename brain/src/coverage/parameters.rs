@@ -69,6 +69,8 @@ pub(super) struct PerimeterParameters {
     pub(super) lap_max_m: f64,
     /// A lap ends after this many islands without a wall.
     pub(super) islands_max: u32,
+    /// Farther from the track than this a place is none that the lap has shown, metres.
+    pub(super) beyond_m: f64,
     /// Turn away from an island, radians.
     pub(super) away_rad: f64,
     /// Failures of the wall follower until the lap ends.
@@ -90,6 +92,7 @@ pub(super) const PERIMETER: PerimeterParameters = PerimeterParameters {
     fresh_worth: 3.0,
     lap_max_m: 400.0,
     islands_max: 12,
+    beyond_m: 1.0,
     away_rad: 1.5,
     troubles_max: 6,
 };

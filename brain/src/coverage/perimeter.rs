@@ -9,14 +9,14 @@
 //! one of several loops. The robot leaves that and looks for another wall. A lap that never closes ends by its length, or
 //! on the track of an earlier stretch.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::escape_bounce::EscapeBounce;
 use super::whole_turns::WholeTurns;
 use crate::coverage::parameters::PERIMETER;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
-use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
 
@@ -85,6 +85,19 @@ impl Perimeter {
     pub(crate) fn leave(&mut self) -> Motion {
         self.begin_again();
         self.turn_away()
+    }
+
+    /// Whether this place lies beyond the track so far: not within its windings, and at a distance from it.
+    pub(crate) fn leaves_out(&self, place: Point2) -> bool {
+        let points = || self.track.iter().map(|point| point.pose.position());
+        let is_beside = points().any(|point| point.distance_m(place) < PERIMETER.beyond_m);
+        let bearings = points().map(|point| libm::atan2(point.y_m - place.y_m, point.x_m - place.x_m));
+        let next = bearings.clone().cycle().skip(1);
+        let turned_rad: f64 = bearings
+            .zip(next)
+            .map(|(one_rad, next_rad)| normalize_rad(next_rad - one_rad))
+            .sum();
+        !is_beside && turned_rad.abs() < PI
     }
 
     /// Whether it is evading a contact.
@@ -270,7 +283,7 @@ impl LapPoint {
 #[cfg(test)]
 mod tests {
     use super::{LapPoint, PERIMETER, Perimeter};
-    use crate::model::geometry::Pose2;
+    use crate::model::geometry::{Point2, Pose2};
 
     fn at(x_m: f64, heading_rad: f64, driven_m: f64) -> LapPoint {
         LapPoint {
@@ -292,6 +305,32 @@ mod tests {
         assert!(back.shows_nothing_beyond(&before) && !back.repeats(&before));
         assert!(!at(0.3, 0.0, 9.0).shows_nothing_beyond(&before));
         assert!(!at(0.1, 0.0, 1.0).shows_nothing_beyond(&before), "just passed");
+    }
+
+    #[test]
+    fn what_lies_outside_of_a_loop_is_left_out_and_what_it_went_round_is_not() {
+        // Round a room of 4 m with the wall on the right.
+        let mut lap = Perimeter::default();
+        for (from_m, along) in [
+            ((-2.0, -2.0), (1.0, 0.0)),
+            ((2.0, -2.0), (0.0, 1.0)),
+            ((2.0, 2.0), (-1.0, 0.0)),
+            ((-2.0, 2.0), (0.0, -1.0)),
+        ] {
+            for step in 0..40 {
+                let at_m = 0.1 * f64::from(step);
+                let mut point = at(from_m.0 + at_m * along.0, 0.0, 0.0);
+                point.pose.y_m = from_m.1 + at_m * along.1;
+                lap.track.push(point);
+            }
+        }
+        let is_left_out = |x_m, y_m| lap.leaves_out(Point2 { x_m, y_m });
+        assert!(!is_left_out(0.0, 0.0) && !is_left_out(1.9, 1.9), "inside");
+        assert!(!is_left_out(2.5, 0.0), "in the door");
+        assert!(
+            is_left_out(4.0, 0.0) && is_left_out(0.0, -4.0),
+            "in the next room"
+        );
     }
 
     #[test]

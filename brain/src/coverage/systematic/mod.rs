@@ -56,7 +56,7 @@ use frontier::margin_cells;
 use gain::Gain;
 use heading_search::HeadingSearch;
 use known_floor::KnownFloor;
-use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
+use outline::{Laps, Outline, knows_home, shuts_in};
 use parameters::{SQUEEZE, SYSTEMATIC};
 use passed::{CellWindow, Passed};
 use plan_evaluation::MadePlan;
@@ -73,6 +73,7 @@ use way_out::WayOut;
 pub(crate) struct Systematic {
     assignment: Assignment,
     outline: Option<Outline>,
+    laps: Laps,
     plan_progress: Option<PlanProgress>,
     /// The robot stands until the plan is finished.
     waits: bool,
@@ -283,13 +284,14 @@ impl Systematic {
             LapStep::Trouble(reason) => return Some(TaskStatus::Trouble(reason)),
             LapStep::Over(reason) => reason,
         };
-        let (kind, margin) = match reason {
-            Reason::BackAtStart => (DecisionKind::ContourClosed, OptimisticMargin::CLOSED),
-            Reason::KnownWall => (DecisionKind::EndLap, OptimisticMargin::KNOWN),
-            _ => (DecisionKind::EndLap, OptimisticMargin::OPEN),
+        let kind = match reason {
+            Reason::BackAtStart => DecisionKind::ContourClosed,
+            _ => DecisionKind::EndLap,
         };
         context.decide(kind, reason, lap.driven_m());
-        self.outline = Some(Outline::Growing(margin));
+        if let Some(Outline::Lap(lap)) = self.outline.take() {
+            self.outline = Some(Outline::Growing(self.laps.end(lap, reason)));
+        }
         None
     }
 

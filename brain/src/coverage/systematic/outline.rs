@@ -3,6 +3,8 @@
 use super::parameters::OUTLINE;
 use crate::coverage::perimeter::Perimeter;
 use crate::mapping::{CELL_M, CellKnowledge};
+use crate::model::geometry::Point2;
+use crate::model::reason::Reason;
 use crate::navigation::Situation;
 
 /// What is known of the home.
@@ -14,6 +16,36 @@ pub(super) enum Outline {
     Lap(Box<Perimeter>),
     /// The walls; the robot explores the rest.
     Growing(OptimisticMargin),
+}
+
+/// The laps along walls so far: where one went round a part of the home only, another follows once the robot stands beyond it.
+#[derive(Debug, Default)]
+pub(super) struct Laps {
+    last: Option<Box<Perimeter>>,
+    ended: u32,
+}
+
+impl Laps {
+    /// A lap has ended for this reason. Returns how far the robot explores beyond what it knows now.
+    pub(super) fn end(&mut self, lap: Box<Perimeter>, reason: Reason) -> OptimisticMargin {
+        self.ended += 1;
+        self.last = Some(lap);
+        match reason {
+            Reason::BackAtStart if self.ended == 1 => OptimisticMargin::CLOSED,
+            Reason::BackAtStart | Reason::KnownWall => OptimisticMargin::KNOWN,
+            _ => OptimisticMargin::OPEN,
+        }
+    }
+
+    /// The next lap, for a robot that has come to a place beyond all laps so far.
+    pub(super) fn next_from(&mut self, here: Point2) -> Option<Box<Perimeter>> {
+        if self.ended >= OUTLINE.laps_max || !self.last.as_ref()?.leaves_out(here) {
+            return None;
+        }
+        let mut lap = self.last.take()?;
+        lap.begin_again();
+        Some(lap)
+    }
 }
 
 /// How much unknown floor beyond the known part is assumed to be free.

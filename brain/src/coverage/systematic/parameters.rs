@@ -85,6 +85,8 @@ pub(super) const GAIN: GainParameters = GainParameters {
 pub(super) struct OutlineParameters {
     /// If less than this share of the known free floor is reachable after the lap, the map wrongly encloses the robot.
     pub(super) shut_in_share: f64,
+    /// Most laps along walls in a job.
+    pub(super) laps_max: u32,
     /// Width of a small optimistic margin, metres.
     pub(super) margin_near_m: f64,
     /// Width of an optimistic margin of the size of a room, metres.
@@ -95,6 +97,7 @@ pub(super) struct OutlineParameters {
 
 pub(super) const OUTLINE: OutlineParameters = OutlineParameters {
     shut_in_share: 0.4,
+    laps_max: 4,
     margin_near_m: 0.6,
     margin_far_m: 2.5,
     known_m2: 4.0,

@@ -74,8 +74,29 @@ impl Systematic {
         if self.failed_plans > EVALUATION.failed_plans_max {
             return Some(self.bounce_out(situation, context));
         }
+        if self.begins_lap(situation, context) {
+            return Some(TaskStatus::Go(Motion::Halt));
+        }
         self.follower = Some(PathFollower::new(made.plan.segments));
         None
+    }
+
+    /// Begins another lap along the walls where the robot has come to a part of the home that no lap went round: lanes over floor
+    /// of unknown shape are short, and without walls the place gets lost.
+    fn begins_lap(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
+        // A robot that measures no distances bumps its way along walls.
+        let proximity = &situation.config.sensors.proximity;
+        let measures_distances = !proximity.sensors().is_empty() && proximity.response.near_m.is_none();
+        let explores = matches!(self.outline, Some(Outline::Growing(_))) && self.assignment.is_whole_home();
+        if !measures_distances || !explores {
+            return false;
+        }
+        let Some(lap) = self.laps.next_from(situation.pose.position()) else {
+            return false;
+        };
+        context.decide(DecisionKind::Lap, Reason::NewFloor, 0.0);
+        self.outline = Some(Outline::Lap(lap));
+        true
     }
 
     /// No floor is left to plan: ends the job, unless something may be cut off.
