@@ -1,7 +1,6 @@
 //! What a search for a path to the dock is made from, and the search itself.
 
 use super::parameters::TRAVEL;
-use super::travel::goals;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
@@ -140,6 +139,24 @@ pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<O
     Gradual::new(async move { Some(length_m(&inputs.first_path(&TRAVEL.clearances_m[1..2]).await?)) })
 }
 
+/// Places in front of the dock, those on the centreline at a good distance first.
+pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
+    let mut goals = Vec::with_capacity(TRAVEL.front_m.len() * TRAVEL.beside_m.len());
+    for (rank, front_m) in TRAVEL.front_m.into_iter().enumerate() {
+        for aside_m in TRAVEL.beside_m {
+            goals.push(Goal {
+                at: dock.transform(Point2 {
+                    x_m: -front_m,
+                    y_m: aside_m,
+                }),
+                detour_m: TRAVEL.front_detour * TRAVEL.front_step_m * rank as f64
+                    + TRAVEL.beside_detour * aside_m.abs(),
+            });
+        }
+    }
+    goals
+}
+
 /// Length of a path, metres.
 pub(super) fn length_m(segments: &[PathSegment]) -> f64 {
     segments.iter().map(|segment| segment.length_m).sum()
@@ -147,9 +164,8 @@ pub(super) fn length_m(segments: &[PathSegment]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{PathInputs, length_m};
+    use super::{PathInputs, goals, length_m};
     use crate::docking::parameters::TRAVEL;
-    use crate::docking::travel::goals;
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::gradual::at_once;

@@ -7,7 +7,7 @@
 use core::task::Poll;
 
 use super::parameters::TRAVEL;
-use super::path_inputs::{PathInputs, length_m};
+use super::path_inputs::{PathInputs, goals, length_m};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, Pose2};
@@ -214,22 +214,4 @@ struct PathSearch {
     rest: Gradual<Option<Vec<PathSegment>>>,
     /// Obstructions that are not on the map block the path.
     is_blocked: bool,
-}
-
-/// Places in front of the dock, those on the centreline at a good distance first.
-pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
-    let mut goals = Vec::with_capacity(TRAVEL.front_m.len() * TRAVEL.beside_m.len());
-    for (rank, front_m) in TRAVEL.front_m.into_iter().enumerate() {
-        for aside_m in TRAVEL.beside_m {
-            goals.push(Goal {
-                at: dock.transform(Point2 {
-                    x_m: -front_m,
-                    y_m: aside_m,
-                }),
-                detour_m: TRAVEL.front_detour * TRAVEL.front_step_m * rank as f64
-                    + TRAVEL.beside_detour * aside_m.abs(),
-            });
-        }
-    }
-    goals
 }
