@@ -12,7 +12,9 @@ use crate::model::geometry::TurnSide;
 use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::EVASION;
-use crate::navigation::{Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus, enters_forbidden};
+use crate::navigation::{
+    Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus, enters_forbidden, turn_off_forbidden_rad,
+};
 
 /// The task.
 #[derive(Clone, Debug)]
@@ -98,14 +100,27 @@ impl Spot {
             Reason::BumpRight | Reason::CliffRight => TurnSide::Left,
             _ => self.side.opposite(),
         };
-        self.side = turn_to;
         context.decide(DecisionKind::BackOff, reason, self.turned_rad);
+        if reason == Reason::NoGoAhead {
+            return self.turn_off(turn_off_forbidden_rad(turn_to, situation));
+        }
+        self.side = turn_to;
         let turn_rad = turn_to.sign() * context.random.within(&SPOT.away_rad);
-        self.evasion = Some(match reason {
-            _ if situation.at_cliff => Evasion::from_cliff(EVASION.cliff_back_m, turn_rad),
-            Reason::NoGoAhead => Evasion::from_contact(0.0, turn_rad),
-            _ => Evasion::from_contact(SPOT.contact_back_m, turn_rad),
+        self.evasion = Some(if situation.at_cliff {
+            Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)
+        } else {
+            Evasion::from_contact(SPOT.contact_back_m, turn_rad)
         });
+        TaskStatus::Go(Motion::Halt)
+    }
+    /// Turns where it stands, and spirals on to the side to which it has turned.
+    fn turn_off(&mut self, turn_rad: f64) -> TaskStatus {
+        self.side = if turn_rad > 0.0 {
+            TurnSide::Left
+        } else {
+            TurnSide::Right
+        };
+        self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
         TaskStatus::Go(Motion::Halt)
     }
 }

@@ -26,7 +26,7 @@ mod wall_follower;
 pub(crate) use caution::caution;
 pub(crate) use contour_trace::ContourTrace;
 pub(crate) use evasion::{Evasion, EvasionStep};
-pub(crate) use forbidden_ahead::enters_forbidden;
+pub(crate) use forbidden_ahead::{enters_forbidden, turn_off_forbidden_rad};
 pub(crate) use goal_path::{Goal, plan_path};
 pub(crate) use inflation::{Disc, Inflation, reachable};
 pub(crate) use manoeuvre::{BackOff, ManoeuvreStep, Turn};

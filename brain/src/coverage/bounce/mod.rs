@@ -13,7 +13,9 @@ use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::{CHASSIS, EVASION};
-use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, enters_forbidden};
+use crate::navigation::{
+    Evasion, Situation, Task, TaskContext, TaskStatus, enters_forbidden, turn_off_forbidden_rad,
+};
 use parameters::BOUNCE;
 use pocket::Pocket;
 
@@ -131,7 +133,9 @@ impl Bounce {
             let reason = Reason::NoGoAhead;
             let side = self.side(reason, context);
             self.pocket.enter(self.straight_m, side);
-            let turn_rad = self.turn_rad(Encounter { reason, side }, situation, context);
+            let least_rad = turn_off_forbidden_rad(side, situation);
+            let drawn_rad = context.random.within(self.pocket.turn_range_rad(reason));
+            let turn_rad = least_rad.signum() * drawn_rad.max(least_rad.abs());
             return Some((reason, Evasion::from_contact(0.0, turn_rad)));
         }
         (self.straight_m > BOUNCE.straight_max_m).then(|| {
