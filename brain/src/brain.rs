@@ -12,7 +12,7 @@ mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
-use crate::coverage::{JobConditions, JobEstimate, estimate};
+use crate::coverage::{JobConditions, JobEstimate, estimate, in_the_way};
 use crate::localization::Localization;
 use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
@@ -233,11 +233,19 @@ impl Brain {
         let conditions = JobConditions {
             map: &self.map,
             start: self.pose(),
+            is_sure: self.estimate().is_sure(),
             config: &self.config,
             energy: &self.energy(),
             charge: self.behavior.battery_charge(),
         };
         estimate(order, conditions)
+    }
+
+    /// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
+    #[must_use]
+    pub fn no_go_in_the_way(&self, order: &CleaningOrder) -> Vec<u16> {
+        let radius_m = self.config.body.radius_m;
+        in_the_way(order, &self.map, self.pose().position(), radius_m)
     }
 
     /// Strategy that suits the robot of the last step. [`StrategyName::Systematic`] needs range sensors with known mounting positions

@@ -70,6 +70,9 @@ impl FloorError {
 #[derive(Debug, Serialize, Deserialize)]
 struct List {
     version: u32,
+    /// Number of the next new floor. A number is not given a second time, because schedules keep numbers of floors.
+    #[serde(default)]
+    next: u16,
     /// Removed ones in the order in which they were removed.
     floors: Vec<FloorEntry>,
 }
@@ -138,11 +141,13 @@ impl FloorFolder {
     /// See [`FloorError`]; then nothing is changed.
     pub(crate) fn change(&self, task: &FloorTask) -> Result<Option<u16>, FloorError> {
         let mut entries = self.entries().0;
+        let mut next = self.next_number(&entries);
         let mut made = None;
         match task {
             FloorTask::New(name) => {
                 let dropped = make_room(&mut entries)?;
-                let number = free_number(&entries).ok_or(FloorError::Full)?;
+                let number = next;
+                next = number.checked_add(1).ok_or(FloorError::Full)?;
                 let entry = FloorEntry {
                     name: name.as_ref().map(|name| name.as_str().to_owned()),
                     ..FloorEntry::new(number)
@@ -164,12 +169,16 @@ impl FloorFolder {
             }
             FloorTask::Restore(number) => entry(&mut entries, *number)?.removed = false,
         }
-        self.write(entries)?;
+        self.write(entries, next)?;
         Ok(made)
     }
 
-    fn write(&self, floors: Vec<FloorEntry>) -> Result<(), FloorError> {
-        let list = List { version: 1, floors };
+    fn write(&self, floors: Vec<FloorEntry>, next: u16) -> Result<(), FloorError> {
+        let list = List {
+            version: 1,
+            next,
+            floors,
+        };
         let bytes = serde_json::to_vec_pretty(&list).map_err(io::Error::from)?;
         fs::create_dir_all(&self.path)?;
         kept_file::replace(&self.path.join(LIST), &bytes)?;
@@ -199,6 +208,17 @@ impl FloorFolder {
         (entries, complaints)
     }
 
+    /// The number that a new floor gets: higher than that of any floor that there was, also of one whose place was needed.
+    fn next_number(&self, entries: &[FloorEntry]) -> u16 {
+        let written = kept_file::versions(&self.path.join(LIST))
+            .into_iter()
+            .find_map(|path| read(&path).ok())
+            .map_or(0, |list| list.next);
+        let listed = entries.iter().map(|entry| entry.number);
+        let highest = listed.chain(self.folder_numbers()).max().unwrap_or(1);
+        written.max(highest.saturating_add(1))
+    }
+
     fn listed(&self) -> (Vec<FloorEntry>, Vec<String>) {
         let mut complaints = Vec::new();
         for path in kept_file::versions(&self.path.join(LIST)) {
@@ -218,15 +238,18 @@ impl FloorFolder {
 
     /// Numbers of the floors that have versions.
     fn folders(&self) -> Vec<u16> {
-        let Ok(entries) = fs::read_dir(&self.path) else {
-            return Vec::new();
-        };
-        let number = |name: &str| name.strip_prefix("floor-")?.parse::<u16>().ok();
-        let below = entries
-            .flatten()
-            .filter_map(|entry| number(entry.file_name().to_str()?));
-        let all = core::iter::once(1).chain(below.filter(|number| *number > 1));
+        let all = core::iter::once(1).chain(self.folder_numbers());
         all.filter(|number| !self.maps(*number).list().is_empty())
+            .collect()
+    }
+
+    /// Numbers of the floors that have a folder of their own.
+    fn folder_numbers(&self) -> Vec<u16> {
+        let number = |name: &str| name.strip_prefix("floor-")?.parse::<u16>().ok();
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        entries
+            .filter_map(|entry| number(entry.file_name().to_str()?))
+            .filter(|number| *number > 1)
             .collect()
     }
 }
@@ -269,10 +292,6 @@ fn make_room(entries: &mut Vec<FloorEntry>) -> Result<Option<u16>, FloorError> {
     let oldest = oldest.map(|entry| entry.number).ok_or(FloorError::Full)?;
     entries.retain(|entry| entry.number != oldest);
     Ok(Some(oldest))
-}
-
-fn free_number(entries: &[FloorEntry]) -> Option<u16> {
-    (1..=u16::MAX).find(|number| entries.iter().all(|entry| entry.number != *number))
 }
 
 #[cfg(test)]
@@ -387,13 +406,31 @@ mod tests {
         for number in [5, 3] {
             scratch.0.change(&FloorTask::Remove(number)).expect("removes");
         }
-        assert_eq!(scratch.0.change(&FloorTask::New(None)).expect("makes"), Some(5));
-        assert_eq!(scratch.0.maps(5).list(), [], "it begins without a map");
+        let newest = FLOORS_MAX as u16 + 1;
+        assert_eq!(
+            scratch.0.change(&FloorTask::New(None)).expect("makes"),
+            Some(newest),
+            "schedules may know the number of the one that gave way"
+        );
+        assert_eq!(scratch.0.maps(5).list(), [], "its maps are gone");
         assert!(
             scratch
                 .floors()
                 .iter()
                 .any(|floor| floor.number == 3 && floor.removed)
         );
+    }
+
+    /// Floors come and go for years, and each that is new has a number of its own.
+    #[test]
+    fn no_floor_gets_the_number_of_another_one() {
+        let scratch = Scratch::new("numbers");
+        let mut given = std::collections::BTreeSet::from([1]);
+        for _ in 0..3 * FLOORS_MAX {
+            let number = scratch.0.change(&FloorTask::New(None)).expect("makes");
+            let number = number.expect("a new one has a number");
+            assert!(given.insert(number), "{number} was given before");
+            scratch.0.change(&FloorTask::Remove(number)).expect("removes");
+        }
     }
 }

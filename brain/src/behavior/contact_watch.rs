@@ -19,6 +19,7 @@ pub(super) struct ContactWatch {
     turned_rad: f64,
     is_moved: bool,
     is_lifted: bool,
+    switch: WheelDropSwitch,
     /// The dock's beams were received while the contacts were closed.
     received_on_contacts: bool,
     receives: bool,
@@ -26,10 +27,36 @@ pub(super) struct ContactWatch {
     losses: u32,
 }
 
+/// The switch of a wheel that hangs. One that hangs for long on closed contacts sticks: who lifts the robot opens them.
+#[derive(Clone, Copy, Debug, Default)]
+struct WheelDropSwitch {
+    hangs_us: Option<u64>,
+    sticks: bool,
+}
+
+impl WheelDropSwitch {
+    fn follow(&mut self, facts: &Facts) {
+        if !facts.wheel_drop {
+            *self = Self::default();
+        } else if facts.docked {
+            let since_us = *self.hangs_us.get_or_insert(facts.now_us);
+            self.sticks |= facts.now_us.saturating_sub(since_us) > CONTACTS.sticks_us;
+        } else {
+            self.hangs_us = None;
+        }
+    }
+
+    /// Whether it says that somebody holds the robot.
+    const fn tells_lift(self, facts: &Facts) -> bool {
+        facts.wheel_drop && !self.sticks
+    }
+}
+
 impl ContactWatch {
     /// Follows one step.
     pub(super) fn follow(&mut self, facts: &Facts, advance: &Advance, receives_dock: bool) {
         self.receives = receives_dock;
+        self.switch.follow(facts);
         self.sense_motion(facts, advance);
         if !facts.docked {
             self.opened_us.get_or_insert(facts.now_us);
@@ -45,12 +72,14 @@ impl ContactWatch {
                 closed_us: facts.now_us,
                 moving_us: facts.now_us,
                 losses,
+                switch: self.switch,
                 receives: receives_dock,
                 ..Self::default()
             };
         }
         self.received_on_contacts |= receives_dock;
-        if facts.now_us.saturating_sub(self.moving_us) > CONTACTS.at_rest_us && !facts.wheel_drop {
+        let is_at_rest = facts.now_us.saturating_sub(self.moving_us) > CONTACTS.at_rest_us;
+        if is_at_rest && !self.switch.tells_lift(facts) {
             (self.moved_m, self.turned_rad) = (0.0, 0.0);
             (self.is_moved, self.is_lifted) = (false, false);
         }
@@ -63,7 +92,7 @@ impl ContactWatch {
         if advance.distance_m != 0.0 || advance.wheel_turn_rad != 0.0 || is_turning {
             self.moving_us = facts.now_us;
         }
-        self.is_lifted |= facts.wheel_drop;
+        self.is_lifted |= self.switch.tells_lift(facts);
         self.moved_m += advance.distance_m;
         self.turned_rad += if is_turning {
             gyro_rad

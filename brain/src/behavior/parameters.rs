@@ -83,6 +83,8 @@ pub(super) struct DockContactParameters {
     pub(super) turned_rad: f64,
     /// Motion that ended this long before the contacts opened, microseconds, has nothing to do with it.
     pub(super) at_rest_us: u64,
+    /// A wheel that hangs for so long on closed contacts, microseconds, hangs by its switch alone.
+    pub(super) sticks_us: u64,
     /// Slower turns are bias of the gyro, rad/s.
     pub(super) turning_rad_per_s: f64,
 }
@@ -94,6 +96,7 @@ pub(super) const CONTACTS: DockContactParameters = DockContactParameters {
     moved_m: 0.015,
     turned_rad: 0.1,
     at_rest_us: 1_000_000,
+    sticks_us: 3_000_000,
     turning_rad_per_s: 0.1,
 };
 

@@ -36,8 +36,9 @@ pub struct JobEstimate {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JobConditions<'brain> {
     pub(crate) map: &'brain Map,
-    /// Pose in which the robot starts.
+    /// Pose in which the robot starts, and whether it is sure of it: if not, it does not know what it can reach from there.
     pub(crate) start: Pose2,
+    pub(crate) is_sure: bool,
     pub(crate) config: &'brain BrainConfig,
     pub(crate) energy: &'brain EnergyModel,
     /// What the pack holds, 0..=1; `None` = not known, and taken to be as much as after a recharge.
@@ -55,12 +56,15 @@ pub(crate) fn estimate(
     let JobConditions {
         map,
         start,
+        is_sure,
         config,
         energy,
         charge: held,
     } = conditions;
     map.admit_order(order)?;
-    admit_reach(order, map, start.position(), config.body.radius_m)?;
+    if is_sure {
+        admit_reach(order, map, start.position(), config.body.radius_m)?;
+    }
     let settings = PlanSettings {
         swath_m: config.body.swath_m,
         sigma_m: MARGINS.sigma_min_m,

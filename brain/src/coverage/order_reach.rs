@@ -1,10 +1,11 @@
-//! How much of the floor of an order the robot can reach, and whether people's no-go zones shut it off. Admission, the estimate and the end
-//! of a job ask the same question here, so that they never disagree.
+//! How much of the floor of an order the robot can reach, and what shuts it off: a virtual wall, a no-go zone, a door, something new.
+//! Admission, the estimate and the end of a job ask the same question here, so that they never disagree.
 
 use super::parameters::REACH;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, covered, reachable};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Door, Map, Raster, covered, reachable};
 use crate::model::geometry::Point2;
 use crate::model::job_refusal::JobRefusal;
+use crate::model::no_go::NoGoShape;
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::model::room_settings::Pattern;
@@ -45,22 +46,148 @@ pub(crate) fn admit_reach(
     if !floor_of(order, map, &knowledge, (from, radius_m)).is_out_of_reach() {
         return Ok(());
     }
-    let open = without_no_go(map);
-    Err(
-        if floor_of(order, map, &open, (from, radius_m)).is_out_of_reach() {
-            JobRefusal::RestOutOfReach
+    let barrier = Barrier::that(order, map, |knowledge| {
+        !floor_of(order, map, knowledge, (from, radius_m)).is_out_of_reach()
+    });
+    Err(barrier.map_or(JobRefusal::RestOutOfReach, Barrier::refusal))
+}
+
+/// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
+pub(crate) fn in_the_way(order: &CleaningOrder, map: &Map, from: Point2, radius_m: f64) -> Vec<u16> {
+    let words = map.annotations();
+    let shuts_off = |number: u16| {
+        let others = words.no_go().filter(|(other, _)| *other != number);
+        let forbidden = others.map(|(_, no_go)| no_go).chain(order.avoid());
+        let knowledge = map.knowledge_forbidding(forbidden);
+        !floor_of(order, map, &knowledge, (from, radius_m)).is_out_of_reach()
+    };
+    let numbers = words.no_go().map(|(number, _)| number);
+    numbers.filter(|number| shuts_off(*number)).collect()
+}
+
+/// What stands between the robot and floor that it would reach otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Barrier {
+    VirtualWall,
+    NoGoZone,
+    Door,
+    NewObstacle,
+}
+
+impl Barrier {
+    /// The barrier without which `is_enough` holds of the knowledge.
+    fn that(
+        order: &CleaningOrder,
+        map: &Map,
+        is_enough: impl Fn(&Raster<CellKnowledge>) -> bool,
+    ) -> Option<Self> {
+        let zones = || {
+            let all = map.annotations().no_go().map(|(_, no_go)| no_go);
+            all.chain(order.avoid())
+                .filter(|no_go| no_go.shape() == NoGoShape::Zone)
+        };
+        if is_enough(&map.knowledge_forbidding(core::iter::empty())) {
+            let is_wall = is_enough(&map.knowledge_forbidding(zones()));
+            return Some(if is_wall {
+                Self::VirtualWall
+            } else {
+                Self::NoGoZone
+            });
+        }
+        let shut = map.knowledge_avoiding(order.avoid());
+        let doors = map.rooms().doors();
+        let is_in_door = |cell: Cell| {
+            let mut near = doors.iter();
+            near.any(|door| door.at.distance_m(cell.middle()) < 0.5 * door.width_m + REACH.door_m)
+        };
+        if is_enough(&with_past_floor(map, &shut, is_in_door)) {
+            Some(Self::Door)
+        } else if is_enough(&with_past_floor(map, &shut, |_| true)) {
+            Some(Self::NewObstacle)
         } else {
-            JobRefusal::NoGoInTheWay
-        },
-    )
+            None
+        }
+    }
+
+    /// What the robot met on a way that `knowledge` holds open: something in a door that leads there, or something elsewhere.
+    fn met(
+        map: &Map,
+        knowledge: &Raster<CellKnowledge>,
+        is_enough: impl Fn(&Raster<CellKnowledge>) -> bool,
+    ) -> Self {
+        let hazards = map.snapshot().hazards;
+        let was_touched = |door: &Door| {
+            let mut near = hazards.iter();
+            near.any(|hazard| {
+                hazard.at.distance_m(door.at) < REACH.touched_share * door.width_m + REACH.door_m
+            })
+        };
+        let leads_there = |door: &Door| !is_enough(&with_door_shut(knowledge, door));
+        let mut doors = map.rooms().doors().iter();
+        if doors.any(|door| was_touched(door) && leads_there(door)) {
+            Self::Door
+        } else {
+            Self::NewObstacle
+        }
+    }
+
+    const fn refusal(self) -> JobRefusal {
+        match self {
+            Self::VirtualWall => JobRefusal::VirtualWallInTheWay,
+            Self::NoGoZone => JobRefusal::NoGoInTheWay,
+            Self::Door => JobRefusal::DoorShut,
+            Self::NewObstacle => JobRefusal::NewObstacleInTheWay,
+        }
+    }
+
+    const fn reason(self) -> Reason {
+        match self {
+            Self::VirtualWall => Reason::VirtualWallInTheWay,
+            Self::NoGoZone => Reason::NoGoInTheWay,
+            Self::Door => Reason::DoorShut,
+            Self::NewObstacle => Reason::NewObstacleInTheWay,
+        }
+    }
+}
+
+/// The knowledge as if something filled a door.
+fn with_door_shut(knowledge: &Raster<CellKnowledge>, door: &Door) -> Raster<CellKnowledge> {
+    let mut shut = knowledge.clone();
+    for index in 0..shut.values().len() {
+        let at = shut.cell(index).middle();
+        if at.distance_m(door.at) < 0.5 * door.width_m + REACH.door_m
+            && let Some(kind) = shut.values_mut().get_mut(index)
+        {
+            *kind = CellKnowledge::Occupied;
+        }
+    }
+    shut
+}
+
+/// The knowledge with floor again where something stands now, and floor was before, as far as `is_asked`.
+fn with_past_floor(
+    map: &Map,
+    knowledge: &Raster<CellKnowledge>,
+    is_asked: impl Fn(Cell) -> bool,
+) -> Raster<CellKnowledge> {
+    let mut open = knowledge.clone();
+    for index in 0..open.values().len() {
+        let cell = open.cell(index);
+        if let Some(kind) = open.values_mut().get_mut(index)
+            && matches!(*kind, CellKnowledge::Occupied | CellKnowledge::Unknown)
+            && map.was_floor(cell)
+            && is_asked(cell)
+        {
+            *kind = CellKnowledge::Free;
+        }
+    }
+    open
 }
 
 /// Why a job that ends now is not finished: it has swept less than half of what was asked. `None` when it has swept more, and for orders
-/// that are for the edges of rooms only.
+/// that are for the edges of rooms only. A first run asks for the floor that it has found.
 pub(crate) fn left_most(order: &CleaningOrder, map: &Map, from: Point2, radius_m: f64) -> Option<Reason> {
-    let words = map.annotations();
-    let is_contour = |part| words.pattern_over(order, part) == Pattern::Contour;
-    if order.is_for_whole_home() || order.parts().iter().any(|part| is_contour(Some(part))) {
+    if sweeps_edges_only(order, map) {
         return None;
     }
     let (mut asked, mut swept) = (0_u32, 0_u32);
@@ -71,19 +198,36 @@ pub(crate) fn left_most(order: &CleaningOrder, map: &Map, from: Point2, radius_m
     if asked == 0 || f64::from(swept) >= REACH.finished_share * f64::from(asked) {
         return None;
     }
-    let open = floor_of(order, map, &without_no_go(map), (from, radius_m));
-    let shut = floor_of(
-        order,
-        map,
-        &map.knowledge_avoiding(order.avoid()),
-        (from, radius_m),
-    );
-    let is_by_no_go = open.reached_m2 > shut.reached_m2 + REACH.finished_share * open.asked_m2;
-    Some(if is_by_no_go {
-        Reason::NoGoInTheWay
+    let reached_m2 =
+        |knowledge: &Raster<CellKnowledge>| floor_of(order, map, knowledge, (from, radius_m)).reached_m2;
+    let [swept_m2, left_m2] = [swept, asked - swept].map(|cells| f64::from(cells) * CELL_M * CELL_M);
+    let shut = map.knowledge_avoiding(order.avoid());
+    let shut_m2 = reached_m2(&shut);
+    let opens_most = |from_m2: f64, to_m2: f64| to_m2 > from_m2 + REACH.finished_share * left_m2;
+    let barrier = if opens_most(swept_m2, shut_m2) {
+        // The map holds the way open, and the robot did not get there. A first run has nothing to compare with.
+        let knows = !order.is_for_whole_home() || map.knows_home();
+        knows.then(|| {
+            Barrier::met(map, &shut, |knowledge| {
+                opens_most(swept_m2, reached_m2(knowledge))
+            })
+        })
     } else {
-        Reason::MostOutOfReach
-    })
+        Barrier::that(order, map, |knowledge| opens_most(shut_m2, reached_m2(knowledge)))
+    };
+    Some(barrier.map_or(Reason::MostOutOfReach, Barrier::reason))
+}
+
+/// Whether rooms of the order are swept at their edges only.
+fn sweeps_edges_only(order: &CleaningOrder, map: &Map) -> bool {
+    let words = map.annotations();
+    let is_contour = |part| words.pattern_over(order, part) == Pattern::Contour;
+    let mut parts = order.parts().iter();
+    if order.is_for_whole_home() {
+        is_contour(None) || !words.contour_rooms(order).is_empty()
+    } else {
+        parts.any(|part| is_contour(Some(part)))
+    }
 }
 
 /// Whether the robot is surely over floor that belongs to no part of the order. Lanes at the edge of a part may lie half a swath outside.
@@ -138,15 +282,4 @@ fn floor_of(
         }
     }
     floor
-}
-
-/// The knowledge as it would be without any no-go zone.
-fn without_no_go(map: &Map) -> Raster<CellKnowledge> {
-    let mut knowledge = map.knowledge().clone();
-    for kind in knowledge.values_mut() {
-        if *kind == CellKnowledge::NoGo {
-            *kind = CellKnowledge::Free;
-        }
-    }
-    knowledge
 }

@@ -231,10 +231,16 @@ pub(super) struct ReachParameters {
     pub(super) least_share: f64,
     /// A job that swept a smaller share of what was asked is not finished.
     pub(super) finished_share: f64,
+    /// What stands this near to the opening of a door stands in it, metres: half a body.
+    pub(super) door_m: f64,
+    /// A touch within this share of a door's width from its middle is none of its frame.
+    pub(super) touched_share: f64,
 }
 
 pub(super) const REACH: ReachParameters = ReachParameters {
     least_m2: 0.2,
     least_share: 0.02,
     finished_share: 0.5,
+    door_m: 0.17,
+    touched_share: 0.25,
 };

@@ -12,7 +12,9 @@ use crate::model::geometry::TurnSide;
 use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::EVASION;
-use crate::navigation::{Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus};
+use crate::navigation::{
+    Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus, enters_forbidden, turn_off_forbidden_rad,
+};
 
 /// The task.
 #[derive(Clone, Debug)]
@@ -59,7 +61,7 @@ impl Task for Spot {
 
 impl Spot {
     fn spiral(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
-        if situation.touching || situation.at_cliff {
+        if !situation.is_free() || enters_forbidden(situation) {
             return self.evade(situation, context);
         }
         let config = situation.config;
@@ -80,7 +82,7 @@ impl Spot {
         })
     }
 
-    /// Evades the obstacle and spirals on in the other direction, so that the rest of the disc lies ahead.
+    /// Evades the obstacle, or turns before forbidden floor, and spirals on in the other direction, so that the rest of the disc lies ahead.
     fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.encounters += 1;
         if self.encounters > SPOT.encounters_max {
@@ -88,20 +90,37 @@ impl Spot {
         }
         let observation = situation.observation;
         let contact = Reason::of_cliffs(observation.cliffs).or(Reason::of_contacts(observation.contacts));
-        let reason = contact.unwrap_or(Reason::BumpFront);
+        let reason = match contact {
+            Some(contact) => contact,
+            None if situation.is_free() => Reason::NoGoAhead,
+            None => Reason::BumpFront,
+        };
         let turn_to = match reason {
             Reason::BumpLeft | Reason::CliffLeft => TurnSide::Right,
             Reason::BumpRight | Reason::CliffRight => TurnSide::Left,
             _ => self.side.opposite(),
         };
-        self.side = turn_to;
         context.decide(DecisionKind::BackOff, reason, self.turned_rad);
+        if reason == Reason::NoGoAhead {
+            return self.turn_off(turn_off_forbidden_rad(turn_to, situation));
+        }
+        self.side = turn_to;
         let turn_rad = turn_to.sign() * context.random.within(&SPOT.away_rad);
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)
         } else {
             Evasion::from_contact(SPOT.contact_back_m, turn_rad)
         });
+        TaskStatus::Go(Motion::Halt)
+    }
+    /// Turns where it stands, and spirals on to the side to which it has turned.
+    fn turn_off(&mut self, turn_rad: f64) -> TaskStatus {
+        self.side = if turn_rad > 0.0 {
+            TurnSide::Left
+        } else {
+            TurnSide::Right
+        };
+        self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
         TaskStatus::Go(Motion::Halt)
     }
 }

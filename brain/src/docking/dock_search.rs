@@ -3,12 +3,12 @@
 //! next unknown wall.
 
 use super::parameters::DOCKING;
-use super::roam::{Roam, enters_forbidden};
+use super::roam::Roam;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
-use crate::navigation::{Situation, TaskContext, TaskStatus};
+use crate::navigation::{Situation, TaskContext, TaskStatus, enters_forbidden};
 
 /// The search. It keeps what it has seen across failed approaches.
 #[derive(Debug, Default)]

@@ -197,8 +197,6 @@ pub(super) struct RoamParameters {
     pub(super) ray_max_m: f64,
     /// A ray ends this close to a contact, metres.
     pub(super) contact_radius_m: f64,
-    /// It turns before the body is so near to forbidden floor, metres.
-    pub(super) before_forbidden_m: f64,
     /// Contacts kept; the oldest go first.
     pub(super) contacts_max: usize,
     /// Direction of a contact on one side from straight ahead, radians.
@@ -230,7 +228,6 @@ pub(super) const ROAM: RoamParameters = RoamParameters {
     ray_from_m: 0.3,
     ray_max_m: 5.0,
     contact_radius_m: 0.17,
-    before_forbidden_m: 0.08,
     contacts_max: 400,
     contact_bearing_rad: 0.7,
     compare_every_m: 1.0,

@@ -4,7 +4,7 @@
 //! far. *Ray*: a straight line from the robot that no obstacle on the map blocks. Its value is the number of unseen blocks
 //! that it crosses.
 
-use core::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
+use core::f64::consts::{FRAC_PI_3, TAU};
 use std::collections::BTreeSet;
 
 use super::parameters::ROAM;
@@ -15,7 +15,7 @@ use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::parameters::{CHASSIS, EVASION};
-use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter};
+use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter, enters_forbidden};
 
 /// The drives, and what was seen on all of them.
 #[derive(Debug, Default)]
@@ -213,24 +213,6 @@ fn block(at: Point2) -> (i32, i32) {
         libm::floor(at.x_m / ROAM.block_m) as i32,
         libm::floor(at.y_m / ROAM.block_m) as i32,
     )
-}
-
-/// Whether the next hand's breadth leads into a no-go zone or over a virtual wall. A robot that stands in one already, or that
-/// does not know its place, is not held back.
-pub(super) fn enters_forbidden(situation: &Situation<'_>) -> bool {
-    let is_forbidden = |at| situation.map.is_forbidden(at, &[]);
-    if situation.estimate.lost || is_forbidden(situation.pose.position()) {
-        return false;
-    }
-    let reach_m = situation.config.body.radius_m + ROAM.before_forbidden_m;
-    (-2..=2).any(|step| {
-        let bearing_rad = f64::from(step) * FRAC_PI_6;
-        is_forbidden(
-            situation
-                .pose
-                .transform(Point2::in_direction(bearing_rad, reach_m)),
-        )
-    })
 }
 
 /// Straight ahead, slower when an obstacle is near.

@@ -34,8 +34,14 @@ named_enum! {
         NotCalibrated => "not-calibrated",
         /// The robot can reach nothing of what is ordered.
         RestOutOfReach => "rest-out-of-reach",
-        /// A no-go zone or virtual wall shuts off what is ordered.
+        /// A no-go zone shuts off what is ordered.
         NoGoInTheWay => "no-go-in-the-way",
+        /// A virtual wall shuts off what is ordered.
+        VirtualWallInTheWay => "virtual-wall-in-the-way",
+        /// A door that was open shuts off what is ordered, or something stands in it.
+        DoorShut => "door-shut",
+        /// Something that was not there before shuts off what is ordered.
+        NewObstacleInTheWay => "new-obstacle-in-the-way",
     }
     nested {
         /// A fault stands.

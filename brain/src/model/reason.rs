@@ -111,8 +111,14 @@ named_enum! {
         RestOutOfReach => "rest-out-of-reach",
         /// Less than half of what was asked could be swept.
         MostOutOfReach => "most-out-of-reach",
-        /// A no-go zone or virtual wall shuts off most of what was asked.
+        /// A no-go zone shuts off most of what was asked.
         NoGoInTheWay => "no-go-in-the-way",
+        /// A virtual wall shuts off most of what was asked.
+        VirtualWallInTheWay => "virtual-wall-in-the-way",
+        /// A door that was open shuts off most of what was asked, or something stands in it.
+        DoorShut => "door-shut",
+        /// Something that was not there before shuts off most of what was asked.
+        NewObstacleInTheWay => "new-obstacle-in-the-way",
         /// A no-go zone or virtual wall lies ahead in the search for the dock.
         NoGoAhead => "no-go-ahead",
         /// Floor was forbidden around the robot: it leaves it on the shortest way first.

@@ -3,7 +3,8 @@
 use crate::orders::{START, Stage, forbid, zone};
 use crate::plane::{edit, run};
 use brain::{
-    BehaviorState, CellKnowledge, CleaningOrder, EditError, JobCommand, MapEdit, NoGo, NoGoEdit, Point2, Zone,
+    BehaviorState, CellKnowledge, CleaningOrder, EditError, JobCommand, MapEdit, NoGo, NoGoEdit, Point2,
+    StrategyName, Zone,
 };
 use std::collections::BTreeMap;
 
@@ -247,6 +248,48 @@ fn a_job_among_drawn_zones_and_walls_keeps_off_forbidden_floor() {
         }
         assert!(steps < 12_000, "home {home} does not end");
         assert_eq!(inside, 0, "home {home}: steps on forbidden floor");
+    }
+}
+
+/// Steps in which the robot's centre is on this floor while it does this, for as long as it does it, at most so many tenths of a second.
+fn steps_on(area: &Zone, no_go: NoGo, (command, tenths): (JobCommand, u32)) -> (u32, f64) {
+    let mut stage = Stage::new();
+    forbid(&mut stage, no_go);
+    run(&mut stage.world, &mut stage.brain, Some(command), 3.0);
+    let (mut inside, mut driven_m) = (0, 0.0);
+    let mut before = stage.place();
+    for _ in 0..tenths {
+        run(&mut stage.world, &mut stage.brain, None, 0.1);
+        let now = stage.place();
+        inside += u32::from(area.contains(now));
+        driven_m += now.distance_m(before);
+        before = now;
+    }
+    (inside, driven_m)
+}
+
+/// A spot and a bounce plan no path, and turn before forbidden floor all the same.
+#[test]
+fn a_spot_and_a_bounce_turn_before_forbidden_floor() {
+    let strategy = StrategyName::Bounce;
+    for (command, tenths, least_m) in [
+        (JobCommand::Spot, 900, 0.3),
+        (JobCommand::Clean { strategy }, 6_000, 20.0),
+    ] {
+        let area = zone((1.3, 0.4), (2.6, 3.0));
+        let asked = (command.clone(), tenths);
+        let (inside, driven_m) = steps_on(&area, NoGo::zone(&area).unwrap(), asked);
+        assert_eq!(inside, 0, "{command:?}");
+        assert!(driven_m > least_m, "{command:?}: {driven_m} m");
+        let ends = [(1.3, -0.1), (1.3, 4.1)].map(|(x_m, y_m)| Point2 {
+            x_m: x_m - START.x_m,
+            y_m: y_m - START.y_m,
+        });
+        let beyond = zone((1.33, 0.0), (6.1, 4.0));
+        let wall = NoGo::wall(ends[0], ends[1]).unwrap();
+        let (inside, driven_m) = steps_on(&beyond, wall, (command.clone(), tenths));
+        assert_eq!(inside, 0, "{command:?} over a wall");
+        assert!(driven_m > least_m, "{command:?}: {driven_m} m");
     }
 }
 

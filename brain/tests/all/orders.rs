@@ -508,19 +508,21 @@ fn estimate_and_admission_are_one_judgement_that_names_what_shuts_floor_off() {
     let stage = Stage::new();
     assert_eq!(judged(&stage.brain, other_room(Vec::new())), Ok(()));
     // Across the door, and so that a crumb beside the door is left.
-    let lines = [wall((3.05, 1.3), (3.05, 2.6)), wall((3.55, 0.0), (3.55, 4.0))];
-    for line in lines {
+    let across = [
+        (wall((3.05, 1.3), (3.05, 2.6)), JobRefusal::VirtualWallInTheWay),
+        (wall((3.55, 0.0), (3.55, 4.0)), JobRefusal::VirtualWallInTheWay),
+        (in_doorway(), JobRefusal::NoGoInTheWay),
+        (over_wall_and_door(), JobRefusal::NoGoInTheWay),
+    ];
+    for (no_go, refusal) in across {
         let mut stage = Stage::new();
-        forbid(&mut stage, line.clone());
-        assert_eq!(
-            judged(&stage.brain, other_room(Vec::new())),
-            Err(JobRefusal::NoGoInTheWay)
-        );
+        forbid(&mut stage, wall((0.3, 3.2), (0.8, 3.2)));
+        forbid(&mut stage, no_go.clone());
+        let order = other_room(Vec::new());
+        assert_eq!(stage.brain.no_go_in_the_way(&order), [2]);
+        assert_eq!(judged(&stage.brain, order), Err(refusal), "{no_go:?}");
         let stage = Stage::new();
-        assert_eq!(
-            judged(&stage.brain, other_room(vec![line])),
-            Err(JobRefusal::NoGoInTheWay)
-        );
+        assert_eq!(judged(&stage.brain, other_room(vec![no_go])), Err(refusal));
     }
     let shut = Room::empty((6.1, 4.0)).with(&[Rectangle::new((3.0, 0.0), (3.1, 4.0))]);
     let mut brain = Brain::with_map(config(), 1, &known(&shut));
@@ -529,6 +531,64 @@ fn estimate_and_admission_are_one_judgement_that_names_what_shuts_floor_off() {
         judged(&brain, other_room(Vec::new())),
         Err(JobRefusal::RestOutOfReach)
     );
+}
+
+fn in_doorway() -> NoGo {
+    NoGo::zone(&zone((2.9, 1.3), (3.3, 2.6))).expect("a zone")
+}
+
+/// What lies under it is a wall, or floor in a door: without the zone only the door would be open.
+fn over_wall_and_door() -> NoGo {
+    NoGo::zone(&zone((2.8, 0.2), (3.4, 3.8))).expect("a zone")
+}
+
+/// A zone over a wall shuts off nothing that would be open without it.
+#[test]
+fn a_zone_over_a_wall_is_not_what_is_in_the_way() {
+    let shut = Room::empty((6.1, 4.0)).with(&[Rectangle::new((3.0, 0.0), (3.1, 4.0))]);
+    let mut brain = Brain::with_map(config(), 1, &known(&shut));
+    let mut world = World::new(shut, START);
+    run(&mut world, &mut brain, None, 1.0);
+    edit(
+        &mut world,
+        &mut brain,
+        MapEdit::NoGo(NoGoEdit::Add(over_wall_and_door())),
+    );
+    let part = HomePart::Zone(zone((4.0, 0.5), (5.5, 3.5)));
+    let order = CleaningOrder::new(vec![part], 1).unwrap();
+    assert_eq!(brain.no_go_in_the_way(&order), []);
+    assert_eq!(judged(&brain, order), Err(JobRefusal::RestOutOfReach));
+}
+
+/// How a job for the far end of the other room ends in a home in which this stands since the map was made.
+fn end_with(standing: Rectangle) -> Reason {
+    let now = flat().with(&[standing]);
+    let mut stage = Stage {
+        world: World::new(now, START),
+        brain: Brain::with_map(config(), 1, &known(&flat())),
+    };
+    run(&mut stage.world, &mut stage.brain, None, 1.0);
+    let part = HomePart::Zone(zone((4.5, 0.5), (5.8, 3.5)));
+    stage.clean(&CleaningOrder::new(vec![part], 1).unwrap());
+    stage.brain.status().reason
+}
+
+#[test]
+fn a_shut_door_and_a_thing_that_is_new_are_told_apart() {
+    let door = Rectangle::new((3.0, 1.5), (3.1, 2.4));
+    assert_eq!(end_with(door), Reason::DoorShut);
+    let shelf = Rectangle::new((4.0, 0.0), (4.1, 4.0));
+    assert_eq!(end_with(shelf), Reason::NewObstacleInTheWay);
+}
+
+/// The whole home is asked for, and most of it is behind a wall that somebody drew.
+#[test]
+fn a_job_for_the_whole_home_that_swept_less_than_half_is_not_finished() {
+    let mut stage = Stage::new();
+    forbid(&mut stage, wall((2.3, 0.0), (2.3, 4.0)));
+    stage.clean(&CleaningOrder::default());
+    assert!(stage.swept((0.2, 0.2), (2.1, 3.8)) > 0.9);
+    assert_eq!(stage.brain.status().reason, Reason::VirtualWallInTheWay);
 }
 
 #[test]
@@ -544,7 +604,7 @@ fn a_job_that_finds_its_floor_shut_off_is_not_finished() {
         run(&mut stage.world, &mut stage.brain, None, 1.0);
         seconds += 1;
     }
-    assert_eq!(stage.brain.status().reason, Reason::NoGoInTheWay);
+    assert_eq!(stage.brain.status().reason, Reason::VirtualWallInTheWay);
 }
 
 /// A zone around the working robot: out of it on the shortest way, then on with the job.

@@ -108,6 +108,13 @@ fn who_took_it_off_its_dock_is_told_by_what_was_sensed() {
     for (what, end) in [
         ("push -0.1\n undocked", "paused pushed-off"),
         ("lift\n undocked", "paused lifted-off"),
+        // A switch that hung on the contacts for long sticks, and says nothing.
+        ("lift\n wait 5\n silence\n undocked", "docked dock-power-lost"),
+        ("lift\n wait 5\n push -0.1\n undocked", "paused pushed-off"),
+        (
+            "lift\n wait 5\n put\n wait 2\n lift\n undocked",
+            "paused lifted-off",
+        ),
         ("silence\n undocked", "docked dock-power-lost"),
         ("undocked", "starting dock-missed"),
     ] {

@@ -1,7 +1,7 @@
 //! Why a request is refused: a name for programs, and a sentence for people that says what was wrong, where, and what to
 //! do.
 
-use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, JobRefusal};
+use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, JobRefusal, NoGoShape};
 use rvac_api::{Explanation, explain};
 
 /// Why a request is refused, by name.
@@ -97,6 +97,30 @@ impl Refusal {
         Self::because(EditError::NoFloorThere, text)
     }
 
+    /// No-go zones and virtual walls shut floor off; the sentence names those that do so alone.
+    fn in_the_way(refusal: JobRefusal, numbers: &[u16], brain: &Brain) -> Self {
+        let no_gos = brain.map().annotations().no_go();
+        let named: Vec<String> = no_gos
+            .filter(|(number, _)| numbers.contains(number))
+            .map(|(number, no_go)| {
+                let kind = match no_go.shape() {
+                    NoGoShape::Zone => "no-go zone",
+                    NoGoShape::Wall { .. } => "virtual wall",
+                };
+                let name = no_go.name().map(|name| format!(" ({})", name.as_str()));
+                format!("the {kind} {number}{}", name.unwrap_or_default())
+            })
+            .collect();
+        let plain = Self::from(refusal);
+        if named.is_empty() {
+            return plain;
+        }
+        Self {
+            text: format!("{} It is {}.", plain.text, named.join(" or ")),
+            ..plain
+        }
+    }
+
     /// What is wrong with an order that the brain refuses.
     pub(crate) fn of_order(refusal: JobRefusal, order: &CleaningOrder, brain: &Brain) -> Self {
         let rooms = brain.map().rooms().rooms();
@@ -108,6 +132,9 @@ impl Refusal {
             (JobRefusal::Order(EditError::NoSuchRoom), Some(room)) => Self::no_such_room(room, brain),
             (JobRefusal::Order(EditError::NoFloorThere), _) => {
                 Self::no_floor_there("in one of the zones and spots", brain)
+            }
+            (JobRefusal::NoGoInTheWay | JobRefusal::VirtualWallInTheWay, _) => {
+                Self::in_the_way(refusal, &brain.no_go_in_the_way(order), brain)
             }
             _ => Self::from(refusal),
         }

@@ -48,11 +48,11 @@ impl FloorFolder {
             let wanted = floors.len();
             return Err(FloorError::NoPlaces { wanted, free });
         }
-        let entries = self.with_new(kept, floors)?;
+        let (entries, next) = self.with_new(kept, floors)?;
         let fresh = entries.get(entries.len() - floors.len()..).unwrap_or_default();
         let numbers = fresh.iter().map(|entry| entry.number).collect();
         self.stage(fresh, floors)?;
-        self.write(entries)?;
+        self.write(entries, next)?;
         if let Err(error) = self.settle() {
             // The list has decided: the next start tries again.
             tracing::error!("cannot name the folders of new floors: {error}");
@@ -60,25 +60,23 @@ impl FloorFolder {
         Ok(numbers)
     }
 
-    /// The list with entries for these floors at its end.
+    /// The list with entries for these floors at its end, and the number of the next new one.
     fn with_new(
         &self,
         mut entries: Vec<FloorEntry>,
         floors: &[ArchivedFloor],
-    ) -> Result<Vec<FloorEntry>, FloorError> {
+    ) -> Result<(Vec<FloorEntry>, u16), FloorError> {
+        let mut next = self.next_number(&entries);
         for floor in floors {
-            // The first floor's maps lie in the folder of all: older files there would conflict.
-            let is_free = |number: &u16| {
-                entries.iter().all(|entry| entry.number != *number) && !self.maps(*number).path().exists()
-            };
-            let number = (2..=u16::MAX).find(is_free).ok_or(FloorError::Full)?;
+            let number = next;
+            next = number.checked_add(1).ok_or(FloorError::Full)?;
             let name = floor.name.as_ref().map(|name| free_name(name, &entries));
             entries.push(FloorEntry {
                 name,
                 ..FloorEntry::new(number)
             });
         }
-        Ok(entries)
+        Ok((entries, next))
     }
 
     /// Writes the maps into folders that nothing reads.

@@ -1,4 +1,4 @@
-//! `bounce`: drive until the robot hits something, back off, turn away by a random angle, drive on.
+//! `bounce`: drive until the robot hits something or comes to forbidden floor, back off, turn away by a random angle, drive on.
 //!
 //! Terms. *Straight*: the straight drive between two encounters. *Pocket*: a place where one straight after another is
 //! short. There the robot backs off further, turns more and always to the same side. That leads out of corners and from
@@ -13,7 +13,9 @@ use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::{CHASSIS, EVASION};
-use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus};
+use crate::navigation::{
+    Evasion, Situation, Task, TaskContext, TaskStatus, enters_forbidden, turn_off_forbidden_rad,
+};
 use parameters::BOUNCE;
 use pocket::Pocket;
 
@@ -126,6 +128,15 @@ impl Bounce {
             self.pocket.enter(self.straight_m, side);
             let turn_rad = self.turn_rad(Encounter { reason, side }, situation, context);
             return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
+        }
+        if enters_forbidden(situation) {
+            let reason = Reason::NoGoAhead;
+            let side = self.side(reason, context);
+            self.pocket.enter(self.straight_m, side);
+            let least_rad = turn_off_forbidden_rad(side, situation);
+            let drawn_rad = context.random.within(self.pocket.turn_range_rad(reason));
+            let turn_rad = least_rad.signum() * drawn_rad.max(least_rad.abs());
+            return Some((reason, Evasion::from_contact(0.0, turn_rad)));
         }
         (self.straight_m > BOUNCE.straight_max_m).then(|| {
             let side = self.side(Reason::LongRun, context);

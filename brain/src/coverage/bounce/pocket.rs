@@ -54,9 +54,9 @@ impl Pocket {
     /// Range of the next turn, radians.
     pub(super) fn turn_range_rad(&self, reason: Reason) -> &'static Range<f64> {
         match (self.kind(), reason) {
-            (PocketKind::Open, Reason::BumpFront) => &BOUNCE.ahead_turn_rad,
+            (PocketKind::Open, Reason::BumpFront | Reason::NoGoAhead) => &BOUNCE.ahead_turn_rad,
             (PocketKind::Open, _) => &BOUNCE.side_turn_rad,
-            (PocketKind::Edge, Reason::BumpFront) => &POCKET.edge_ahead_turn_rad,
+            (PocketKind::Edge, Reason::BumpFront | Reason::NoGoAhead) => &POCKET.edge_ahead_turn_rad,
             (PocketKind::Edge, _) => &POCKET.edge_side_turn_rad,
             (PocketKind::Cage, _) => &POCKET.cage_turn_rad,
         }

@@ -1,8 +1,9 @@
 //! Floor that people have forbidden, and floor around it.
 
 use super::Map;
-use crate::mapping::Raster;
 use crate::mapping::reach::passable;
+use crate::mapping::zone_cells::cells_of;
+use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::no_go::NoGo;
@@ -12,6 +13,24 @@ impl Map {
     pub(crate) fn is_forbidden(&self, at: Point2, avoid: &[NoGo]) -> bool {
         let zones = self.home.annotations.no_go.values().chain(avoid);
         zones.map(NoGo::area).any(|area| area.contains(at))
+    }
+
+    /// The knowledge as if these alone were forbidden.
+    pub(crate) fn knowledge_forbidding<'a>(
+        &self,
+        forbidden: impl Iterator<Item = &'a NoGo>,
+    ) -> Raster<CellKnowledge> {
+        let open = self.home.knowledge_without_no_go();
+        let mut knowledge = open.unwrap_or_else(|| self.knowledge().clone());
+        let Some(window) = self.home.bounds() else {
+            return knowledge;
+        };
+        for cell in forbidden.flat_map(|no_go| cells_of(no_go.area(), window)) {
+            if let Some(kind) = knowledge.get_mut(cell) {
+                *kind = CellKnowledge::NoGo;
+            }
+        }
+        knowledge
     }
 
     /// Where the centre of a body with `clearance_m` around it may be if nothing were forbidden, and where over allowed floor only.

@@ -35,8 +35,46 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<GreyImage, GreyImageError> {
     } else {
         Err(wrong(
             "byte 0",
-            "it is neither a PGM (P2, P5) nor a PNG; convert it",
+            &format!(
+                "it is {}, and neither a PGM (P2, P5) nor a PNG; {}",
+                kind_of(bytes),
+                remedy_for(bytes)
+            ),
         ))
+    }
+}
+
+/// Pictures and packed files by their first bytes.
+const KINDS: [(&[u8], &str); 12] = [
+    (b"\xff\xd8\xff", "a JPEG picture"),
+    (b"BM", "a BMP picture"),
+    (b"GIF8", "a GIF picture"),
+    (b"II*\0", "a TIFF picture"),
+    (b"MM\0*", "a TIFF picture"),
+    (b"RIFF", "a WebP picture"),
+    (b"P1", "a PBM picture (P1)"),
+    (b"P3", "a PPM picture (P3)"),
+    (b"P4", "a PBM picture (P4)"),
+    (b"P6", "a PPM picture (P6)"),
+    (b"\x1f\x8b", "packed with gzip"),
+    (b"PK\x03\x04", "packed with zip"),
+];
+
+/// What a file is that is no picture of a map.
+pub(super) fn kind_of(bytes: &[u8]) -> &'static str {
+    let known = KINDS.iter().find(|(first, _)| bytes.starts_with(first));
+    match known {
+        Some((_, kind)) => kind,
+        None if bytes.is_empty() => "empty",
+        None => "of no kind that is known",
+    }
+}
+
+fn remedy_for(bytes: &[u8]) -> &'static str {
+    if bytes.starts_with(b"\x1f\x8b") || bytes.starts_with(b"PK") {
+        "unpack it"
+    } else {
+        "save the picture as one of them"
     }
 }
 

@@ -47,10 +47,13 @@ impl<'a> MapYaml<'a> {
         }
         let mut reader = EntryReader::default();
         for event in Parser::new_from_str(text) {
-            let (event, span) = event.map_err(|error| HomeError::Invalid {
-                path: path.to_owned(),
-                place: format!("line {} or the one before", error.marker().line()),
-                problem: format!("{}; write one `key: value` to a line", error.info()),
+            let (event, span) = event.map_err(|error| {
+                let line = error.marker().line();
+                HomeError::Invalid {
+                    path: path.to_owned(),
+                    place: format!("line {line} or the one before"),
+                    problem: format!("{}; {}", error.info(), remedy_near(text, line)),
+                }
             })?;
             if event == Event::DocumentEnd {
                 break;
@@ -82,6 +85,22 @@ impl<'a> MapYaml<'a> {
             path,
             entries: reader.entries,
         })
+    }
+
+    /// A key that is missing, or that stands there in other letters.
+    fn missing(&self, key: &str, example: &str) -> HomeError {
+        let alike = self
+            .entries
+            .iter()
+            .find(|entry| entry.key.eq_ignore_ascii_case(key));
+        let problem = match alike {
+            Some(entry) => format!(
+                "it is missing, and `{}` is in line {}; write it in small letters, as `{key}: {example}`",
+                entry.key, entry.line
+            ),
+            None => format!("it is missing; add a line such as `{key}: {example}`"),
+        };
+        self.invalid(key, problem)
     }
 
     /// A refusal of what this key says.
@@ -125,12 +144,8 @@ impl<'a> MapYaml<'a> {
 
     /// The value of a key that Nav2's loader requires.
     pub(super) fn text(&self, key: &str, example: &str) -> Result<&str, HomeError> {
-        self.optional(key, example)?.ok_or_else(|| {
-            self.invalid(
-                key,
-                format!("it is missing; add a line such as `{key}: {example}`"),
-            )
-        })
+        self.optional(key, example)?
+            .ok_or_else(|| self.missing(key, example))
     }
 
     pub(super) fn number(&self, key: &str, example: &str) -> Result<f64, HomeError> {
@@ -162,10 +177,7 @@ impl<'a> MapYaml<'a> {
                 format!("`{}` is no list; write `{key}: {example}`", shortened(text)),
             )),
             Some(_) => Err(self.invalid(key, format!("it holds no numbers; write `{key}: {example}`"))),
-            None => Err(self.invalid(
-                key,
-                format!("it is missing; add a line such as `{key}: {example}`"),
-            )),
+            None => Err(self.missing(key, example)),
         }
     }
 
@@ -180,6 +192,16 @@ impl<'a> MapYaml<'a> {
                 ),
             )),
         }
+    }
+}
+
+/// What helps against a mistake of writing in this line or the one before.
+fn remedy_near(text: &str, line: usize) -> &'static str {
+    let mut near = text.lines().skip(line.saturating_sub(2)).take(2);
+    if near.any(|line| line.contains('\t')) {
+        "write spaces instead of the tab"
+    } else {
+        "write one `key: value` to a line"
     }
 }
 

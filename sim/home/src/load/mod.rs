@@ -147,6 +147,9 @@ fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<&'a str, HomeError> {
     if image::is_image(bytes) {
         return unknown("an image; give the .yaml that belongs to it");
     }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return unknown("packed with zip; unpack it and give the file that was in it");
+    }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return unknown("not text (byte 0) or text in UTF-16; save it as UTF-8");
     }

@@ -12,10 +12,19 @@ pub enum HomeNotice {
         path: PathBuf,
         /// Its `free_thresh`.
         free_thresh: f64,
+        /// Whether `mode: scale` makes floor of it.
+        by_scale: bool,
         /// Floor without that grey, square metres.
         known_m2: f64,
         /// Floor as the file is loaded, square metres.
         floor_m2: f64,
+    },
+    /// `negate: 1` over a picture with the greys of a map saver, which belong to `negate: 0`.
+    NegatedSaver {
+        /// The YAML.
+        path: PathBuf,
+        /// Share of the picture that has them, 0 to 1.
+        share: f64,
     },
     /// Floor reaches the edge of the picture, so no wall closes it there.
     FloorAtEdge {
@@ -66,12 +75,26 @@ impl fmt::Display for HomeNotice {
             Self::UnknownIsFloor {
                 path,
                 free_thresh,
+                by_scale,
                 known_m2,
                 floor_m2,
-            } => write!(
+            } => {
+                let (taker, remedy) = if *by_scale {
+                    ("`mode: scale`".to_owned(), "`mode: trinary`")
+                } else {
+                    (format!("`free_thresh: {free_thresh}`"), "`free_thresh: 0.196`")
+                };
+                write!(
+                    out,
+                    "{taker} in {} takes grey 205 for floor, which map savers write where nothing is known: {floor_m2:.1} m2 of floor instead of {known_m2:.1} m2; write {remedy} unless that is meant",
+                    path.display()
+                )
+            }
+            Self::NegatedSaver { path, share } => write!(
                 out,
-                "`free_thresh: {free_thresh}` in {} takes grey 205 for floor, which map savers write where nothing is known: {floor_m2:.1} m2 of floor instead of {known_m2:.1} m2; write `free_thresh: 0.196` unless that is meant",
-                path.display()
+                "`negate: 1` in {} takes dark for floor, but {:.0} % of the picture have the greys 205 and 254 of a map saver, whose floor is light; write `negate: 0` unless that is meant",
+                path.display(),
+                share * 100.0
             ),
             Self::FloorAtEdge { path, share } => write!(
                 out,

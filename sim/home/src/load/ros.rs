@@ -26,8 +26,11 @@ enum MapMode {
     Raw,
 }
 
-/// The grey that map savers write where nothing is known.
+/// The greys that map savers write where nothing is known, and for floor.
 const UNKNOWN_GREY: u8 = 205;
+const FLOOR_GREY: u8 = 254;
+/// Share of a picture with these greys from which a map saver has made it.
+const SAVER_SHARE: f64 = 0.5;
 /// Share of a picture from which one grey is suspicious. The wide canvas of a mapper leaves more than this to rooms.
 const ONE_GREY_SHARE: f64 = 0.999;
 /// Share of the picture's edge from which floor there is told: a beam through a window touches it as well.
@@ -132,16 +135,7 @@ fn notices(path: &Path, found: &FoundImage, thresholds: &Thresholds, coarse: &Gr
             share,
         });
     }
-    let unknown = counts.get(usize::from(UNKNOWN_GREY)).copied().unwrap_or(0);
-    if unknown > 0 && !thresholds.negate && thresholds.cell(Some(UNKNOWN_GREY)).is_floor() {
-        let floor = coarse.cells.iter().filter(|cell| cell.is_floor()).count();
-        notices.push(HomeNotice::UnknownIsFloor {
-            path: path.clone(),
-            free_thresh: thresholds.free,
-            known_m2: (floor - unknown.min(floor)) as f64 * coarse.cell_area_m2(),
-            floor_m2: floor as f64 * coarse.cell_area_m2(),
-        });
-    }
+    notices.extend(saver_greys(&path, found, thresholds, coarse));
     let pixels = counts.iter().take(255).skip(101).sum();
     if thresholds.mode == MapMode::Raw && pixels > 0 {
         notices.push(HomeNotice::NotRaw {
@@ -154,6 +148,40 @@ fn notices(path: &Path, found: &FoundImage, thresholds: &Thresholds, coarse: &Gr
         notices.push(HomeNotice::FloorAtEdge { path, share });
     }
     notices
+}
+
+/// What becomes of the greys of a map saver, if it is not what the saver meant by them.
+fn saver_greys(
+    path: &Path,
+    found: &FoundImage,
+    thresholds: &Thresholds,
+    coarse: &Grid,
+) -> Option<HomeNotice> {
+    let counts = histogram(&found.image);
+    let count = |grey: u8| counts.get(usize::from(grey)).copied().unwrap_or(0);
+    let unknown = count(UNKNOWN_GREY);
+    if unknown == 0 || thresholds.mode == MapMode::Raw {
+        return None;
+    }
+    if thresholds.negate {
+        let share = (unknown + count(FLOOR_GREY)) as f64 / found.image.pixels.len().max(1) as f64;
+        return (share > SAVER_SHARE).then(|| HomeNotice::NegatedSaver {
+            path: path.to_owned(),
+            share,
+        });
+    }
+    if !thresholds.cell(Some(UNKNOWN_GREY)).is_floor() {
+        return None;
+    }
+    let floor = coarse.cells.iter().filter(|cell| cell.is_floor()).count();
+    let shade = f64::from(255 - UNKNOWN_GREY) / 255.0;
+    Some(HomeNotice::UnknownIsFloor {
+        path: path.to_owned(),
+        free_thresh: thresholds.free,
+        by_scale: thresholds.mode == MapMode::Scale && shade >= thresholds.free,
+        known_m2: (floor - unknown.min(floor)) as f64 * coarse.cell_area_m2(),
+        floor_m2: floor as f64 * coarse.cell_area_m2(),
+    })
 }
 
 fn floor_share_of_edge(grid: &Grid) -> f64 {
@@ -258,24 +286,56 @@ struct FoundImage {
 
 /// The file that `image:` names: from the folder of the YAML, from `~`, or as a `file://` address.
 fn image_file(path: &Path, name: &str) -> PathBuf {
-    let name = name.strip_prefix("file://").unwrap_or(name);
+    let address = name.strip_prefix("file://");
+    let name = match address {
+        Some(address) => without_percents(address.strip_prefix("localhost").unwrap_or(address)),
+        None => name.to_owned(),
+    };
     match (name.strip_prefix("~/"), std::env::home_dir()) {
         (Some(rest), Some(folder)) => folder.join(rest),
         _ => path.parent().unwrap_or(Path::new("")).join(name),
     }
 }
 
+/// An address with the bytes that it writes as `%20`. What is no such byte stays.
+fn without_percents(address: &str) -> String {
+    let mut bytes = Vec::with_capacity(address.len());
+    let mut rest = address.as_bytes();
+    while let Some((first, behind)) = rest.split_first() {
+        let digits = behind
+            .get(..2)
+            .and_then(|digits| std::str::from_utf8(digits).ok());
+        let byte = digits.filter(|_| *first == b'%').and_then(|digits| {
+            let is_hex = digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+            is_hex.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
+        });
+        bytes.push(byte.unwrap_or(*first));
+        rest = behind
+            .get(if byte.is_some() { 2 } else { 0 }..)
+            .unwrap_or_default();
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| address.to_owned())
+}
+
+/// The last part of a name in the spelling of any system: `C:\maps\flat.pgm` as well.
+fn last_part(name: &str) -> &str {
+    name.rsplit(['/', '\\']).next().unwrap_or(name)
+}
+
 fn load_image(path: &Path, yaml: &MapYaml<'_>) -> Result<FoundImage, HomeError> {
     let name = yaml.text("image", "map.pgm")?;
-    if name.trim().is_empty() || name.contains('\0') {
+    if name.trim().is_empty() || name.contains(['\0', '\n']) {
         return Err(yaml.invalid("image", "it names no file; write `image: map.pgm`".to_owned()));
     }
     let named = image_file(path, name);
     // A name with its folder is often written as seen from elsewhere: `maps/flat.pgm` in `maps/flat.yaml`.
-    let beside = named.file_name().map(|last| path.with_file_name(last));
-    let (file, named) = match beside {
-        Some(beside) if !named.exists() && beside.is_file() => (beside, Some(name.to_owned())),
-        _ => (named, None),
+    let last = last_part(name);
+    let beside = path.with_file_name(last);
+    let is_beside = !last.is_empty() && !named.exists() && beside.is_file();
+    let (file, named) = if is_beside {
+        (beside, Some(name.to_owned()))
+    } else {
+        (named, None)
     };
     let bytes = read_limited(&file, IMAGE_BYTES_MAX).map_err(|error| match error {
         ReadError::TooLong(bytes) => HomeError::TooLong {

@@ -87,6 +87,22 @@ fn images_are_found_where_writers_mean_them() {
         "{text}"
     );
 
+    // Addresses write spaces as `%20`, and other systems part folders otherwise.
+    let spaced = image.with_file_name("usual plan.pgm");
+    std::fs::copy(&image, &spaced).unwrap();
+    let address = format!("file://localhost{}", spaced.display()).replace(' ', "%20");
+    let localhost = load_yaml("localhost.yaml", &format!("image: \"{address}\"\n{YAML}"));
+    check_area(localhost.free_area_m2(), FLOOR_M2);
+    assert_eq!(localhost.notices(), []);
+    for elsewhere in ["C:\\maps\\usual.pgm", "maps\\usual.pgm"] {
+        let home = load_yaml("windows-path.yaml", &format!("image: {elsewhere}\n{YAML}"));
+        check_area(home.free_area_m2(), FLOOR_M2);
+        assert!(
+            matches!(home.notices(), [HomeNotice::ImageBeside { .. }]),
+            "{elsewhere}"
+        );
+    }
+
     let home = complaint(
         "tilde.yaml",
         format!("image: ~/no such folder/x.pgm\n{YAML}").as_bytes(),
@@ -99,7 +115,14 @@ fn images_are_found_where_writers_mean_them() {
 }
 
 /// What stands in a sound file, what stands there instead, and what the complaint must say.
-const WRONG_KEYS: [(&str, &str, [&str; 2]); 15] = [
+const WRONG_KEYS: [(&str, &str, [&str; 2]); 18] = [
+    (
+        "negate: 0",
+        "Negate: 0",
+        ["`Negate` is in line 4", "small letters"],
+    ),
+    ("negate: 0", "\tnegate: 0", ["line 4", "instead of the tab"]),
+    ("negate: 0", "negate:\t[0", ["line 5 or the one before", "write"]),
     ("negate: 0", "negate:", ["`negate` in line 4", "no value"]),
     ("negate: 0", "negate: ~", ["`negate`", "write `negate: 0`"]),
     (
@@ -178,6 +201,32 @@ fn each_wrong_key_is_named_with_its_line_and_remedy() {
 }
 
 #[test]
+fn a_picture_of_another_kind_is_named_with_what_it_is() {
+    let kinds: [(&[u8], &str); 8] = [
+        (b"\xff\xd8\xff\xe0rest", "JPEG"),
+        (b"BMrest", "BMP"),
+        (b"GIF89a", "GIF"),
+        (b"P6 2 2 255\n000000000000", "PPM"),
+        (b"P1 2 2\n0 0 0 0", "PBM"),
+        (b"\x1f\x8b\x08rest", "gzip; unpack it"),
+        (b"", "empty"),
+        (b"letter", "of no kind"),
+    ];
+    for (bytes, said) in kinds {
+        file("kind.pgm", bytes);
+        let text = load("kind.yaml", format!("image: kind.pgm\n{YAML}").as_bytes())
+            .unwrap_err()
+            .to_string();
+        let said: Vec<&str> = said.split("; ").collect();
+        assert!(
+            text.contains("kind.pgm") && said.iter().all(|part| text.contains(part)),
+            "{text}"
+        );
+    }
+    assert!(complaint("packed.home", b"PK\x03\x04rest").contains("zip"));
+}
+
+#[test]
 fn pgm_headers_of_every_writer_load() {
     let headers = [
         "P5\r\n40 20\r\n255\r\n",
@@ -241,6 +290,25 @@ fn what_a_file_may_mean_otherwise_is_told() {
         "{grey}"
     );
     assert!(grey.contains("% of the edge"), "floor without walls: {grey}");
+
+    // A saver's 205 is half-way between the thresholds of `scale`, and so floor.
+    let scale = told("scale", &pixels(), &format!("{YAML}mode: scale\n")).join("; ");
+    assert!(
+        scale.contains("`mode: scale`") && scale.contains("write `mode: trinary`"),
+        "{scale}"
+    );
+
+    // With `negate: 1` the walls are floor.
+    file("negated.pgm", &pgm(&pixels()));
+    let negated = YAML.replace("negate: 0", "negate: 1");
+    let negated = complaint(
+        "negated.yaml",
+        format!("image: negated.pgm\n{negated}").as_bytes(),
+    );
+    assert!(
+        negated.contains("no place") && negated.contains("write `negate: 0`"),
+        "{negated}"
+    );
 
     // Floor of 254 is unknown in raw mode and walls are floor: no robot fits, and the refusal says why.
     file("raw.pgm", &pgm(&pixels()));

@@ -1,7 +1,10 @@
 //! Files that nobody would write, against every loader: an answer in time, in bounded memory, without a panic.
 
+use std::io::Write as _;
 use std::time::{Duration, Instant};
 
+use flate2::Compression;
+use flate2::write::{GzEncoder, ZlibEncoder};
 use home::{Home, Pcg};
 
 use crate::loaders::{YAML, mutate, pgm, pixels, png_of, valetudo};
@@ -97,6 +100,48 @@ fn seeds() -> Vec<Seed> {
     ]
 }
 
+/// How a file comes.
+#[derive(Clone, Copy)]
+enum Packing {
+    Plain,
+    Gzip,
+    Zlib,
+    /// As the map that a picture of Valetudo carries.
+    InPicture,
+}
+
+impl Packing {
+    /// Half of the files come plainly.
+    fn drawn(random: &mut Pcg) -> Self {
+        match random.below(6) {
+            0 => Self::Gzip,
+            1 => Self::Zlib,
+            2 => Self::InPicture,
+            _ => Self::Plain,
+        }
+    }
+
+    fn pack(self, bytes: Vec<u8>) -> Vec<u8> {
+        let zlib = |bytes: &[u8]| {
+            let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
+            packer.write_all(bytes).and_then(|()| packer.finish())
+        };
+        match self {
+            Self::Plain => bytes,
+            Self::Gzip => {
+                let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+                let packed = packer.write_all(&bytes).and_then(|()| packer.finish());
+                packed.expect("memory takes all")
+            }
+            Self::Zlib => zlib(&bytes).expect("memory takes all"),
+            Self::InPicture => {
+                let map = zlib(&bytes).expect("memory takes all");
+                [b"\x89PNG\r\n\x1a\n\0\0\0\x10zTXtValetudoMap\0\0".as_slice(), &map].concat()
+            }
+        }
+    }
+}
+
 /// What came of many files.
 #[derive(Clone, Copy, Debug, Default)]
 struct Answers {
@@ -127,7 +172,12 @@ fn attack(seed: u64, budget: Duration, inputs_max: u32) -> Answers {
         if let Some(image) = image {
             file(&format!("{folder}/hostile.image"), &image);
         }
-        let path = file(&format!("{folder}/{name}"), &text);
+        let mut packed = Packing::drawn(&mut random).pack(text.clone());
+        // Damage to what packs is mostly found at once, so little of it is done.
+        if random.below(8) == 0 {
+            packed = mutate(&packed, &mut random);
+        }
+        let path = file(&format!("{folder}/{name}"), &packed);
         let before = on_processor();
         let answer = Home::load(&path, &robot);
         let took = on_processor() - before;

@@ -115,6 +115,19 @@ fn a_job_that_was_done_stays_finished_when_another_order_ends_its_way_home() {
         ("command", "finished", Finished, "finished"),
         ("command", "battery-low", Stopped, "command"),
         ("docked", "no-go-in-the-way", GaveUp, "no-go-in-the-way"),
+        (
+            "docked",
+            "virtual-wall-in-the-way",
+            GaveUp,
+            "virtual-wall-in-the-way",
+        ),
+        ("docked", "door-shut", GaveUp, "door-shut"),
+        (
+            "docked",
+            "new-obstacle-in-the-way",
+            GaveUp,
+            "new-obstacle-in-the-way",
+        ),
         ("docked", "most-out-of-reach", GaveUp, "most-out-of-reach"),
     ] {
         let ending = Ending::of(LastWords {

@@ -120,7 +120,7 @@ fn a_crash_before_the_list_leaves_everything_as_it_was() {
     let before = scratch.floors();
     let entries = scratch.0.entries().0;
     let floors = [archived("Cellar", 5), archived("Loft", 6)];
-    let entries = scratch.0.with_new(entries, &floors).expect("has places");
+    let (entries, _) = scratch.0.with_new(entries, &floors).expect("has places");
     scratch.0.stage(&entries[2..], &floors).expect("writes");
     assert!(scratch.0.staged(3).exists());
     assert_eq!(scratch.floors(), before);
@@ -132,9 +132,9 @@ fn a_crash_after_the_list_is_finished_at_the_next_start() {
     let scratch = Scratch::home("after");
     let entries = scratch.0.entries().0;
     let floors = [archived("Cellar", 5), archived("Loft", 6)];
-    let entries = scratch.0.with_new(entries, &floors).expect("has places");
+    let (entries, next) = scratch.0.with_new(entries, &floors).expect("has places");
     scratch.0.stage(&entries[2..], &floors).expect("writes");
-    scratch.0.write(entries).expect("writes");
+    scratch.0.write(entries, next).expect("writes");
     // One folder has its name already.
     fs::rename(scratch.0.staged(3), scratch.0.maps(3).path()).expect("renames");
     let homes: Vec<_> = scratch.floors().into_iter().map(|floor| floor.home).collect();

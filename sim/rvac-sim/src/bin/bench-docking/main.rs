@@ -31,9 +31,9 @@ struct Arguments {
     /// Homes: `tuning` or `report` (odd and even numbers of the published set), or `small` (two homes of the project).
     #[arg(long, default_value = "report")]
     homes: String,
-    /// Runs of each situation, spread over the homes.
-    #[arg(long, default_value_t = 50)]
-    runs: u64,
+    /// Runs of each situation, spread over the homes. Without it 50, and 1,000 with --worn.
+    #[arg(long)]
+    runs: Option<u64>,
     /// Number of the first seed.
     #[arg(long, default_value_t = 1)]
     first: u64,
@@ -90,6 +90,9 @@ fn main() -> anyhow::Result<()> {
     writeln!(io::stdout(), "{output}").context("cannot write to standard output")
 }
 
+/// Runs, if nobody says how many; seven wears take more trials for the same.
+const USUAL_RUNS: u64 = 50;
+const WORN_RUNS: u64 = 1_000;
 /// Trials with worn docks that follow each other in one home.
 const WEARS_IN_A_HOME: usize = 7;
 
@@ -116,9 +119,14 @@ impl Arguments {
         Ok(half.numbers().map(DockingHome::Generated).collect())
     }
 
+    fn runs(&self) -> u64 {
+        let usual = if self.worn { WORN_RUNS } else { USUAL_RUNS };
+        self.runs.unwrap_or(usual)
+    }
+
     /// The seeds that fall to a home.
     fn seeds(&self, number: usize, homes: usize) -> impl Iterator<Item = u64> {
-        (self.first..self.first + self.runs).skip(number).step_by(homes)
+        (self.first..self.first + self.runs()).skip(number).step_by(homes)
     }
 }
 
@@ -130,9 +138,9 @@ fn trips_home(
 ) -> anyhow::Result<String> {
     let situations = DockingStart::list(&arguments.situations)?;
     let progress = Progress::new("docking");
-    let count = situations.len() as f64 * arguments.runs as f64;
+    let count = situations.len() as f64 * arguments.runs() as f64;
     let mut runs = Vec::new();
-    for number in (0..homes).take(arguments.runs as usize) {
+    for number in (0..homes).take(arguments.runs() as usize) {
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
             for situation in &situations {
@@ -163,7 +171,7 @@ fn trips_home(
 fn worn_docks(arguments: &Arguments, homes: &[DockingHome], model: &RobotModel) -> anyhow::Result<String> {
     let progress = Progress::new("worn docks");
     let mut trials = Vec::new();
-    for number in arguments.first..arguments.first + arguments.runs {
+    for number in arguments.first..arguments.first + arguments.runs() {
         let index = usize::try_from(number)? / WEARS_IN_A_HOME % homes.len();
         let home = homes.get(index).context("a home of the set")?;
         let trial = WornTrial::of(number, home, model)?;
@@ -171,7 +179,7 @@ fn worn_docks(arguments: &Arguments, homes: &[DockingHome], model: &RobotModel) 
             writeln!(io::stderr(), "{trial:?}")?;
         }
         trials.push(trial);
-        progress.show(trials.len() as f64 / arguments.runs as f64);
+        progress.show(trials.len() as f64 / arguments.runs() as f64);
     }
     progress.clear();
     let summary = WornSummary::of(&trials);
@@ -191,12 +199,12 @@ fn low_batteries(
 ) -> anyhow::Result<String> {
     let progress = Progress::new("low battery");
     let mut jobs = Vec::new();
-    for number in (0..homes).take(arguments.runs as usize) {
+    for number in (0..homes).take(arguments.runs() as usize) {
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
             let done = jobs.len() as f64;
             jobs.push(JobOutcome::of(&scene, seed, arguments.charging_speed, |share| {
-                progress.show((done + share) / arguments.runs as f64);
+                progress.show((done + share) / arguments.runs() as f64);
             }));
         }
     }
