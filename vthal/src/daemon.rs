@@ -197,6 +197,7 @@ impl Daemon {
                 self.handle(Input::LinkOpened);
             }
             LinkEvent::Bytes(bytes) => self.handle(Input::LinkBytes(&bytes)),
+            LinkEvent::FramingErrors(count) => self.handle(Input::FramingErrors(count)),
             LinkEvent::Closed(reason) => self.handle(Input::LinkClosed { reason }),
             LinkEvent::Absent(error) => tracing::warn!(part = "link", "{error}"),
         }

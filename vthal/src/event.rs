@@ -80,6 +80,8 @@ pub(crate) enum LinkEvent {
     Absent(LinkOpenError),
     /// Bytes of the robot.
     Bytes(Vec<u8>),
+    /// So many of the bytes just told came with a framing or parity error, or were a break.
+    FramingErrors(u32),
     /// It is lost.
     Closed(LinkLoss),
 }

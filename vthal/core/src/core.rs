@@ -143,6 +143,7 @@ impl Core {
                 self.link.opened(&self.config.make, &mut teller);
             }
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
+            Input::FramingErrors(count) => self.link.count_framing_errors(count),
             Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
             Input::BoardHeading { heading_urad } => {
                 if let Some(brain_session) = &mut self.brain_session {
