@@ -36,6 +36,10 @@ fn row(words: &Words, run: &Run) -> RunRow {
         let (start, end) = (percent_text(words, start), percent_text(words, end));
         figures.push(words.history.battery_from_to.fill([&start, &end]));
     }
+    if let Some(by_s) = run.clock_set_s {
+        let set = if by_s < 0 { words.history.clock_set_back } else { words.history.clock_set_forward };
+        figures.push(set.fill([clock_text(by_s.unsigned_abs() as f64)]));
+    }
     RunRow {
         number: run.number,
         start_s: run.start_s,
@@ -202,6 +206,7 @@ mod tests {
                 by: rvac_api::RunAsker::Button,
                 start_s: None,
                 end_s: None,
+                clock_set_s: None,
                 duration_s: 3905.0,
                 moving_s: 1800.0,
                 swept_m2: 12.34,
