@@ -11,6 +11,7 @@
 //! whenever there is room -> next_packet(&mut buffer)    -> whether there is something to send
 //! ```
 
+#[warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")]
 mod host;
 mod robot;
 
