@@ -1,15 +1,9 @@
-//! Requests that nobody would write, a daemon with little memory that gets them, and an honest client beside those who write them.
+//! Requests and documents that nobody would write: sound ones with something wrong in them, and words thrown together.
 
-use std::path::Path;
-use std::time::{Duration, Instant};
+use rvac_api::{VERBS, example_of};
+use serde_json::Value;
 
-use rvac_api::{Update, VERBS};
-use vthal_bench::{Client, Daemon, Scratch, next_random};
-
-/// Generous: the machine may be busy with other tests.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
-/// All the memory that the daemon can ask for in a siege, what its program takes included. A board of a robot has 512 MiB for everything.
-const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
+use crate::next_random;
 
 const FIELDS: [&str; 24] = [
     "id", "name", "topics", "strategy", "shape", "number", "room", "rooms", "settings", "v", "w", "ttl",
@@ -17,35 +11,102 @@ const FIELDS: [&str; 24] = [
     "parts",
 ];
 
-/// Starts the daemon in so much memory.
-pub(crate) fn start_in_little_memory(scratch: &Scratch) -> Daemon {
-    let vthal = Path::new(env!("CARGO_BIN_EXE_vthal"));
-    Daemon::start_within(ADDRESS_SPACE_BYTES, vthal, scratch, &["--seed", "1"]).expect("gets ready")
+/// A request that is sound but for up to three of its values or keys, or one of words thrown together. Never what makes the daemon leave
+/// its robot to another program.
+pub fn request(state: &mut u64) -> String {
+    let (verb, _) = pick(state, &VERBS);
+    let verb = if verb == "borrow-link" { "dock" } else { verb };
+    match example_of(verb) {
+        Some(example) if index(state, 3) > 0 => nearly_sound(example, state),
+        _ => thrown_together(verb, state),
+    }
 }
 
-/// A request with a real word and up to four arguments that are seldom right. Never what makes the daemon leave its robot to another program.
-pub(crate) fn request(state: &mut u64) -> String {
-    let (verb, _) = VERBS[index(state, VERBS.len())];
-    let verb = if verb == "borrow-link" { "dock" } else { verb };
+fn nearly_sound(example: &str, state: &mut u64) -> String {
+    let mut request: Value = serde_json::from_str(example).unwrap_or_default();
+    for _ in 0..index(state, 4) {
+        let Some(fields) = request.as_object_mut() else {
+            break;
+        };
+        let keys: Vec<String> = fields.keys().filter(|key| *key != "c").cloned().collect();
+        let surplus = pick(state, &FIELDS).to_owned();
+        let key = keys
+            .get(index(state, keys.len().max(1)))
+            .unwrap_or(&surplus)
+            .clone();
+        match index(state, 8) {
+            0 => drop(fields.remove(&key)),
+            1 => drop(fields.insert(surplus, any_value(state))),
+            _ => change(fields.entry(key).or_insert(Value::Null), state),
+        }
+    }
+    request.to_string()
+}
+
+fn thrown_together(verb: &str, state: &mut u64) -> String {
     let mut text = format!(r#"{{"c":"{verb}""#);
     for _ in 0..index(state, 5) {
-        text.push_str(&format!(
-            r#","{}":{}"#,
-            FIELDS[index(state, FIELDS.len())],
-            value(state)
-        ));
+        text.push_str(&format!(r#","{}":{}"#, pick(state, &FIELDS), value(state)));
     }
     text.push('}');
     text
 }
 
+/// Replaces one value anywhere in a document: a number mostly by another number, the rest by anything.
+pub fn change(document: &mut Value, state: &mut u64) {
+    let is_number = document.is_number();
+    let count = match &*document {
+        Value::Array(items) => items.len(),
+        Value::Object(members) => members.len(),
+        _ => 0,
+    };
+    let chosen = if count == 0 || index(state, 5) == 0 {
+        None
+    } else {
+        match document {
+            Value::Array(items) => items.get_mut(index(state, count)),
+            Value::Object(members) => members.values_mut().nth(index(state, count)),
+            _ => None,
+        }
+    };
+    match chosen {
+        Some(inner) => change(inner, state),
+        None if is_number && index(state, 4) > 0 => *document = number(state),
+        None => *document = any_value(state),
+    }
+}
+
+/// A number at the ends of what programs count with, or a small one.
+fn number(state: &mut u64) -> Value {
+    match index(state, 10) {
+        0 => Value::from(u64::MAX),
+        1 => Value::from(i64::MIN),
+        2 => Value::from(u32::MAX),
+        3 => Value::from(i32::MIN),
+        4 => Value::from(65_536),
+        5 => Value::from(1e300),
+        6 => Value::from(-1e-300),
+        7 => Value::from(-1),
+        8 => Value::from(0),
+        _ => Value::from(index(state, 20)),
+    }
+}
+
+fn any_value(state: &mut u64) -> Value {
+    serde_json::from_str(&value(state)).unwrap_or(Value::Null)
+}
+
+fn pick<T: Copy>(state: &mut u64, all: &[T]) -> T {
+    all[index(state, all.len())]
+}
+
 /// One of so many.
-pub(crate) fn index(state: &mut u64, count: usize) -> usize {
+pub fn index(state: &mut u64, count: usize) -> usize {
     (next_random(state) % count as u64) as usize
 }
 
 /// A value in JSON that little code expects.
-pub(crate) fn value(state: &mut u64) -> String {
+pub fn value(state: &mut u64) -> String {
     match index(state, 10) {
         0 => next_random(state).to_string(),
         1 => format!("-{}", index(state, 1000)),
@@ -58,15 +119,4 @@ pub(crate) fn value(state: &mut u64) -> String {
         8 => "0.1".to_owned(),
         _ => "true".to_owned(),
     }
-}
-
-/// Presses Stop, and gives after what time that is done.
-pub(crate) fn press_stop(client: &mut Client, id: u32) -> Duration {
-    let pressed = Instant::now();
-    let stop = format!(r#"{{"c":"stop","id":{id}}}"#);
-    client.send(&stop).expect("the honest client is not hung up on");
-    let is_done = |update: &Update| matches!(update, Update::Done { id: done } if *done == id);
-    let done = client.wait_for(pressed + PATIENCE, is_done);
-    assert!(done.expect("reads").is_some(), "stop {id} is answered");
-    pressed.elapsed()
 }
