@@ -17,7 +17,7 @@ fn people_are_told_of_each_fault_soon_and_rightly_and_nothing_is_lost() {
     let figures = campaign(&scene("two-room-flat", "nominal"), SEEDS);
     let BoardFigures { bad, told_s_max, .. } = &figures;
     assert!(bad.is_empty(), "{bad:#?}");
-    assert_eq!(told_s_max.len(), 17, "{told_s_max:?}");
+    assert_eq!(told_s_max.len(), 16, "{told_s_max:?}");
     for (fault, told_s) in told_s_max {
         // The files of the zone are looked at each quarter of a minute.
         let at_most_s = if fault.ends_with("-while-running") {

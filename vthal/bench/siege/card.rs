@@ -16,7 +16,7 @@ state=$1; spoil=$2; shift 2
 mount -t tmpfs -o size=4m,nr_inodes=200 card /mnt && cp -r "$state/." /mnt || exit 1
 case $spoil in
 full) dd if=/dev/zero of=/mnt/ballast bs=4k 2>/dev/null ;;
-no-inodes) n=0; while : >"/mnt/ballast-$n"; do n=$((n + 1)); done 2>/dev/null ;;
+no-inodes) n=0; while touch "/mnt/ballast-$n" 2>/dev/null; do n=$((n + 1)); done ;;
 esac
 mount --bind /mnt "$state" || exit 1
 case $spoil in read-only) mount -o remount,ro,bind "$state" || exit 1 ;; esac

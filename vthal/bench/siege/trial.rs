@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use rvac_api::Update;
+use rvac_api::{LogLevel, Update};
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{
     Client, Daemon, HostileKind, Processor, Scratch, Siege, SyntheticRobot, keep_home, resident_max_mib,
@@ -100,7 +100,7 @@ pub(crate) struct Figures {
     pub(crate) wait_share: f64,
     /// Most memory.
     pub(crate) rss_max_mib: f64,
-    /// Lines of the log that clients read.
+    /// Lines of the log for people.
     pub(crate) log_lines_per_s: f64,
     /// What became of changes on a card that takes nothing.
     pub(crate) passage: Option<Passage>,
@@ -225,7 +225,7 @@ fn listen(socket: &Path, clock_began: Instant, is_over: &AtomicBool) -> anyhow::
                         .delays_ms
                         .extend(sent.map(|sent| sent.elapsed().as_secs_f64() * 1e3));
                 }
-                Update::Log(_) => heard.lines += 1,
+                Update::Log(line) if line.level != LogLevel::Debug => heard.lines += 1,
                 _ => {}
             }
             false

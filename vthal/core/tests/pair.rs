@@ -1604,7 +1604,6 @@ fn numbers_out_of_range_are_refused_in_short_sentences() {
             shape: NoGoShape::Zone(far),
             name: None,
         },
-        RequestBody::ClaimButtons { ms: u32::MAX },
     ];
     for request in requests {
         let before = pair.updates.len();

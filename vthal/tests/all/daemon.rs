@@ -639,7 +639,7 @@ fn damaged_files_are_told_to_clients_and_kept() {
         ("health.json", "health.json.damaged-1"),
         ("learnt.json", "learnt.json.damaged-1"),
         ("statistics.json", "statistics.json.damaged-1"),
-        ("floors.json", "floors.json.damaged-1"),
+        ("maps/floors.json", "maps/floors.json.damaged-1"),
         ("mixes/Sofa.json", "mixes/Sofa.json.damaged-1"),
         ("maps/000001.map", "maps/000001.map"),
         ("checkpoint", "checkpoint"),
@@ -847,8 +847,8 @@ fn starts_without_a_job_take_no_place_among_the_recordings() {
         wait_for_state(&mut robot, &mut client, "idle");
         daemon.kill().expect("kills");
     }
-    let recordings = fs::read_dir(scratch.join("state/recordings"));
-    assert_eq!(recordings.map_or(0, Iterator::count), 0);
+    let recordings = fs::read_dir(scratch.join("state/runs")).expect("a folder");
+    assert_eq!(recordings.count(), 0);
 }
 
 #[test]
