@@ -37,7 +37,11 @@ fn row(words: &Words, run: &Run) -> RunRow {
         figures.push(words.history.battery_from_to.fill([&start, &end]));
     }
     if let Some(by_s) = run.clock_set_s {
-        let set = if by_s < 0 { words.history.clock_set_back } else { words.history.clock_set_forward };
+        let set = if by_s < 0 {
+            words.history.clock_set_back
+        } else {
+            words.history.clock_set_forward
+        };
         figures.push(set.fill([clock_text(by_s.unsigned_abs() as f64)]));
     }
     RunRow {
