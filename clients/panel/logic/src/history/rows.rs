@@ -42,7 +42,7 @@ fn row(words: &Words, run: &Run) -> RunRow {
         } else {
             words.history.clock_set_forward
         };
-        figures.push(set.fill([clock_text(by_s.unsigned_abs() as f64)]));
+        figures.push(set.fill([&clock_text(by_s.unsigned_abs() as f64)]));
     }
     RunRow {
         number: run.number,
@@ -268,6 +268,14 @@ mod tests {
         assert_eq!(
             stop_rows(estonian, &record)[0].words,
             "Pausil: keegi palus seda. Andis panel. Ajal 1:01, kestis 0:12."
+        );
+        let mut set_back = record.run.clone();
+        set_back.clock_set_s = Some(-3_600);
+        let row = &run_rows(ENGLISH, &[set_back])[0];
+        assert!(
+            row.figures.ends_with(", the clock was set back by 1:00:00"),
+            "{}",
+            row.figures
         );
         let mut pressed = record;
         pressed.stops[0].by = Some("the button on the robot".to_owned());
