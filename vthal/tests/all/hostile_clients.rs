@@ -15,9 +15,15 @@ use crate::little_memory::{PATIENCE, press_stop, start_in_little_memory};
 /// So often Stop is pressed meanwhile, and until so much nonsense was sent.
 const STOPS: u32 = 100;
 const REQUESTS: u64 = 100_000;
-/// Of each kind; those who ask nonsense are several.
-const OF_A_KIND: u64 = 1;
-const OF_NONSENSE: u64 = 4;
+/// Those who take part, and so many of each; `cargo xtask bench siege` measures all kinds.
+const BESIEGERS: [HostileKind; 5] = [
+    HostileKind::NeverReads,
+    HostileKind::AsksNonsense,
+    HostileKind::ComesAndGoes,
+    HostileKind::StopsInTheMiddle,
+    HostileKind::NeverEndsAMessage,
+];
+const OF_A_KIND: u64 = 4;
 /// What is kept on the disk and told to whoever asks.
 const KEPT_TOPICS: &str = r#"{"c":"watch","topics":["schedules","floors","home"]}"#;
 const KINDS: usize = 7;
@@ -71,21 +77,14 @@ fn what_is_kept_of_home(home: &HomeView) -> String {
     format!("{:?}, {:?}, {:?}", home.no_go, home.places, home.dock)
 }
 
-const fn of_a_kind(kind: HostileKind) -> u64 {
-    match kind {
-        HostileKind::AsksNonsense => OF_NONSENSE,
-        _ => OF_A_KIND,
-    }
-}
-
 /// Stop is pressed by an honest client while all kinds of others do their deeds; gives the times until it was done, in order.
 fn besiege(socket: &Path) -> Vec<Duration> {
     let mut honest = Client::watching(socket, r#"["status"]"#).expect("connects");
     let siege = Siege::default();
     std::thread::scope(|scope| {
-        for (kind, number) in HostileKind::ALL
+        for (kind, number) in BESIEGERS
             .iter()
-            .flat_map(|kind| (1..=of_a_kind(*kind)).map(move |number| (kind, number)))
+            .flat_map(|kind| (1..=OF_A_KIND).map(move |number| (kind, number)))
         {
             let siege = &siege;
             scope.spawn(move || kind.besiege(socket, number, siege));
