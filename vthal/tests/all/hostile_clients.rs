@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use rvac_api::{HomeView, Schedules, Update};
+use rvac_api::{Schedules, Update};
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{
     Client, HostileKind, LivingRobot, Scratch, Siege, SyntheticRobot, keep_home, resident_max_mib,
@@ -25,8 +25,8 @@ const BESIEGERS: [HostileKind; 5] = [
 ];
 const OF_A_KIND: u64 = 4;
 /// What is kept on the disk and told to whoever asks.
-const KEPT_TOPICS: &str = r#"{"c":"watch","topics":["schedules","floors","home"]}"#;
-const KINDS: usize = 7;
+const KEPT_TOPICS: &str = r#"{"c":"watch","topics":["schedules","floors"]}"#;
+const KINDS: usize = 6;
 const KEPT: [&str; 4] = [
     r#"{"c":"mixes","id":1}"#,
     r#"{"c":"maps","id":2}"#,
@@ -51,8 +51,6 @@ fn kept(socket: &Path) -> BTreeMap<&'static str, String> {
             Update::Mixes { mixes } => ("mixes", format!("{mixes:?}")),
             Update::Learnt { devices, .. } => ("learnt", format!("{devices:?}")),
             Update::Runs { runs, .. } => ("runs", format!("{runs:?}")),
-            // The map is taken up when the robot has described itself.
-            Update::Home(home) if home.dock.is_some() => ("home", what_is_kept_of_home(home)),
             _ => return false,
         };
         told.insert(kind, says);
@@ -70,11 +68,6 @@ fn what_is_kept_of_schedules(schedules: &Schedules) -> String {
         .map(|view| (view.number, &view.entry))
         .collect();
     format!("{entries:?}, {:?}, {:?}", schedules.quiet, schedules.zone)
-}
-
-/// What people have said of it.
-fn what_is_kept_of_home(home: &HomeView) -> String {
-    format!("{:?}, {:?}, {:?}", home.no_go, home.places, home.dock)
 }
 
 /// Stop is pressed by an honest client while all kinds of others do their deeds; gives the times until it was done, in order.
