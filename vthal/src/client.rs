@@ -2,8 +2,10 @@
 
 use std::io;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use rvac_api::{Failure, Request, SEPARATOR, Update};
+use tokio::sync::Semaphore;
 use tokio::sync::mpsc::Sender;
 use tokio::task::AbortHandle;
 use vthal_core::ClientId;
@@ -212,13 +214,21 @@ fn parse(packet: &[u8]) -> Incoming {
 }
 
 /// Reads for a client until it hangs up. One that has ended only its own side may wait for answers still, as a script does that
-/// pipes its requests in.
+/// pipes its requests in. Each request is an event of its own, and the next one waits until it was carried out: whoever sends without
+/// end is one of all who wait for the daemon, however much is in its socket.
 pub(crate) async fn read_for(client: ClientId, stream: Rc<ClientStream>, events: Sender<Event>) {
+    let turns = Arc::new(Semaphore::new(1));
     let mut buffer = [0; READ_SIZE];
     while let Ok(count @ 1..) = stream.read(&mut buffer).await {
-        let bytes = buffer.get(..count).unwrap_or_default().to_vec();
-        if events.send(Event::ClientBytes(client, bytes)).await.is_err() {
-            return;
+        let bytes = buffer.get(..count).unwrap_or_default();
+        for piece in bytes.split_inclusive(|byte| *byte == SEPARATOR) {
+            let Ok(turn) = Arc::clone(&turns).acquire_owned().await else {
+                return;
+            };
+            let event = Event::ClientBytes(client, piece.to_vec(), turn);
+            if events.send(event).await.is_err() {
+                return;
+            }
         }
     }
     if events.send(Event::ClientSilent(client)).await.is_ok() {

@@ -168,7 +168,7 @@ impl Daemon {
             Event::Radio(event) => self.take_radio(event),
             Event::Zone(zone) => self.handle(Input::SystemZone(zone)),
             Event::Connected(stream) => self.connect(stream),
-            Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
+            Event::ClientBytes(client, bytes, _turn) => self.client_bytes(client, &bytes),
             Event::ClientWritable(client) => {
                 if let Some(client) = self.clients.get_mut(&client) {
                     client.unblock();
@@ -197,6 +197,7 @@ impl Daemon {
                 self.handle(Input::LinkOpened);
             }
             LinkEvent::Bytes(bytes) => self.handle(Input::LinkBytes(&bytes)),
+            LinkEvent::FramingErrors(count) => self.handle(Input::FramingErrors(count)),
             LinkEvent::Closed(reason) => self.handle(Input::LinkClosed { reason }),
             LinkEvent::Absent(error) => tracing::warn!(part = "link", "{error}"),
         }

@@ -3,6 +3,7 @@
 use robot_link::Abilities;
 use rvac_api::Run;
 use tokio::net::UnixStream;
+use tokio::sync::OwnedSemaphorePermit;
 use vthal_core::schedule::ZoneReading;
 use vthal_core::{ClientId, LinkLoss};
 
@@ -27,8 +28,8 @@ pub(crate) enum Event {
     Calibration(CalibrationEvent),
     /// A client connected.
     Connected(UnixStream),
-    /// A client sent bytes.
-    ClientBytes(ClientId, Vec<u8>),
+    /// A client sent bytes, of one request at most. The next ones wait until this event is gone.
+    ClientBytes(ClientId, Vec<u8>, OwnedSemaphorePermit),
     /// A client's socket takes bytes again.
     ClientWritable(ClientId),
     /// A client has said its last word and may listen still.
@@ -80,6 +81,8 @@ pub(crate) enum LinkEvent {
     Absent(LinkOpenError),
     /// Bytes of the robot.
     Bytes(Vec<u8>),
+    /// So many of the bytes just told came with a framing or parity error, or were a break.
+    FramingErrors(u32),
     /// It is lost.
     Closed(LinkLoss),
 }

@@ -6,7 +6,7 @@ mod taking_in;
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use brain::{RoomName, StoredMap};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ const FLOORS_MAX: usize = 16;
 /// Name of the list.
 const LIST: &str = "floors.json";
 /// Largest list that is read.
-const LIST_BYTES_MAX: u64 = 1 << 16;
+const LIST_BYTES_MAX: usize = 1 << 16;
 
 /// The folder of maps with all its floors.
 #[derive(Clone, Debug)]
@@ -112,7 +112,7 @@ impl FloorFolder {
 
     /// Where it is.
     #[cfg(test)]
-    pub(crate) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &std::path::Path {
         &self.path
     }
 
@@ -220,20 +220,12 @@ impl FloorFolder {
     }
 
     fn listed(&self) -> (Vec<FloorEntry>, Vec<String>) {
-        let mut complaints = Vec::new();
-        for path in kept_file::versions(&self.path.join(LIST)) {
-            if !path.exists() {
-                continue;
-            }
-            match read(&path) {
-                Ok(list) => return (list.floors, complaints),
-                Err(what) => complaints.push(format!(
-                    "cannot use the list of floors {}: {what}",
-                    path.display()
-                )),
-            }
-        }
-        (vec![FloorEntry::new(1)], complaints)
+        let list = kept_file::newest(&self.path.join(LIST), "the list of floors", read);
+        let floors = list.value.map(|list: List| list.floors);
+        (
+            floors.unwrap_or_else(|| vec![FloorEntry::new(1)]),
+            list.complaints,
+        )
     }
 
     /// Numbers of the floors that have versions.
@@ -254,13 +246,11 @@ impl FloorFolder {
     }
 }
 
-fn read(path: &Path) -> Result<List, String> {
-    let said = |error: io::Error| error.to_string();
-    if fs::metadata(path).map_err(said)?.len() > LIST_BYTES_MAX {
+fn read(text: &str) -> Result<List, String> {
+    if text.len() > LIST_BYTES_MAX {
         return Err("it is larger than any list of floors".to_owned());
     }
-    let list: List =
-        serde_json::from_slice(&kept_file::read(path).map_err(said)?).map_err(|error| error.to_string())?;
+    let list: List = serde_json::from_str(text).map_err(|error| error.to_string())?;
     match list.version {
         1 => Ok(list),
         version => Err(format!(
@@ -389,6 +379,8 @@ mod tests {
         assert_eq!(floors.len(), 2);
         assert_eq!(floors[1].home, Some(home(5)));
         assert!(complaints[0].contains(LIST), "{complaints:?}");
+        let aside = scratch.0.path().join("floors.json.damaged-1");
+        assert_eq!(fs::read(aside).expect("is kept"), b"garbage");
     }
 
     #[test]

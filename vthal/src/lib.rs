@@ -26,8 +26,16 @@ mod learnt_file;
 mod lifetime_file;
 mod link;
 mod logging;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod map_folder;
 mod mix_folder;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod numbered;
 mod outbox;
 pub mod radio;
@@ -35,6 +43,10 @@ pub mod recording;
 mod robot_file;
 mod rotation;
 mod run_desk;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod run_folder;
 mod run_thread;
 mod schedule_file;

@@ -213,7 +213,8 @@ impl RunFolder {
         let mut end = [0; mcap::MAGIC.len()];
         let mut read_end = |file: PathBuf| {
             let mut file = File::open(file)?;
-            file.seek(SeekFrom::End(-(mcap::MAGIC.len() as i64)))?;
+            const END: SeekFrom = SeekFrom::End(-(mcap::MAGIC.len() as i64));
+            file.seek(END)?;
             file.read_exact(&mut end)
         };
         let is_read = self

@@ -1,7 +1,7 @@
 //! Serial devices: opened raw, locked against a second program.
 
 use std::io;
-use std::os::fd::OwnedFd;
+use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{FlockOperation, Mode, OFlags, flock};
@@ -31,7 +31,13 @@ pub(crate) struct Line {
 /// A device that no second program of ours opens.
 #[derive(Debug)]
 pub(crate) struct DeviceLock {
-    _handle: OwnedFd,
+    handle: OwnedFd,
+}
+
+impl AsFd for DeviceLock {
+    fn as_fd(&self) -> BorrowedFd<'_> {
+        self.handle.as_fd()
+    }
 }
 
 /// Locks the device against a second daemon, then sets raw mode at the configured rate.
@@ -54,7 +60,7 @@ pub(crate) fn lock(path: &Path) -> Result<DeviceLock, OpenError> {
         .map_err(|error| OpenError::refused(path, error.into()))?;
     flock(&handle, FlockOperation::NonBlockingLockExclusive)
         .map_err(|_| OpenError::InUse(path.to_owned()))?;
-    Ok(DeviceLock { _handle: handle })
+    Ok(DeviceLock { handle })
 }
 
 /// Why the device is not open.

@@ -24,6 +24,9 @@ pub struct Run {
     /// When it ended, seconds since 1970; absent if the clock was not set, or the run was cut short.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end_s: Option<i64>,
+    /// The clock was set by so many seconds during the run, back if negative: both times are by the clock as it was set last.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock_set_s: Option<i64>,
     /// From the order to the end, pauses included, seconds.
     pub duration_s: f64,
     /// Seconds of it in motion.

@@ -13,6 +13,7 @@ mod calibration;
 mod cleaning_power;
 mod client_input;
 mod device;
+mod example;
 mod floor;
 mod health;
 mod history;
@@ -42,6 +43,7 @@ pub use calibration::{CalibrationAnswer, CalibrationAsk, CalibrationPage, Calibr
 pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
 pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};
+pub use example::example_of;
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
 };

@@ -244,6 +244,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("zone-changed", None),
     ("zone-unknown", None),
     ("zone-variable-unknown", None),
+    ("clock-set", None),
     ("busy", None),
     ("unknown-component", None),
     ("not-renewed", None),

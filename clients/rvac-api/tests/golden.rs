@@ -1133,6 +1133,7 @@ fn run() -> Run {
         },
         start_s: Some(1_795_392_000),
         end_s: None,
+        clock_set_s: None,
         duration_s: 3905.5,
         moving_s: 1800.0,
         swept_m2: 12.5,

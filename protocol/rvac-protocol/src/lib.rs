@@ -13,6 +13,10 @@ pub mod crc;
 pub mod fill;
 pub mod frame;
 pub mod message;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 pub mod quality;
 pub mod session;
 pub mod span;

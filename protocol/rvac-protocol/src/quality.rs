@@ -108,12 +108,12 @@ impl QualityWindow {
     pub(crate) fn turn(&mut self, now: Tick) {
         let passed = now.since(self.newest_since) / SLICE_MS;
         for _ in 0..passed.min(SLICES as u32) {
-            self.newest = (self.newest + 1) % SLICES;
+            self.newest = self.newest.wrapping_add(1) % SLICES;
             if let Some(slice) = self.slices.get_mut(self.newest) {
                 *slice = PacketCounts::default();
             }
         }
-        self.newest_since = self.newest_since.after(passed * SLICE_MS);
+        self.newest_since = self.newest_since.after(passed.saturating_mul(SLICE_MS));
     }
 
     /// All of them.
@@ -139,6 +139,23 @@ mod tests {
             ..Arrivals::default()
         };
         assert_eq!(Arrivals::default().since(before).states, 1);
+    }
+
+    /// Two `info` of a robot whose counters stand near 2^32 once ended the daemon.
+    #[test]
+    fn no_count_of_a_robot_is_too_large() {
+        let mut window = QualityWindow::default();
+        let now = Tick(0);
+        window.record(u32::MAX - 1, u32::MAX, now);
+        window.record(u32::MAX - 1, u32::MAX, now.after(1));
+        window.record(1, 1, now.after(2_000));
+        let most = PacketCounts {
+            good: u32::MAX,
+            bad: u32::MAX,
+        };
+        assert_eq!(window.totals(), most);
+        assert_eq!(most.all(), u32::MAX);
+        assert_eq!(most.bad_share(), 1.0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use rvac_api::{RequestBody, RunAsker, RunJob, RunRecord, RunResult, RunStop};
 use rvac_sim::daily::MIDNIGHT_S;
 use rvac_sim::{Host, Household};
-use scenarios::{household, scene, settings};
+use scenarios::{household, says, scene, settings};
 use vthal_core::{Checkpoints, CoreConfig, cut_short};
 
 /// Handshake and description.
@@ -303,4 +303,30 @@ fn a_clock_that_is_set_on_the_way_tells_the_beginning_too() {
         (run.start_s, run.end_s),
         (Some(MIDNIGHT_S - 20), Some(MIDNIGHT_S + 10))
     );
+}
+
+#[test]
+fn a_clock_that_is_set_back_in_a_job_is_told_and_the_run_ends_after_its_beginning() {
+    let mut household = household(&scene("furnished-room", "nominal"), &settings(1, 0));
+    household.pass_ms(CONNECT_MS);
+    let noon_s = MIDNIGHT_S + 12 * 3_600;
+    let now_us = household.now_us();
+    host_of(&mut household).keep_log();
+    host_of(&mut household).set_wall(now_us, noon_s);
+    start(&mut household);
+    household.pass_ms(20_000);
+    let now_us = household.now_us();
+    host_of(&mut household).set_wall(now_us, noon_s + 20 - 3_600);
+    household.pass_ms(10_000);
+    household.ask(RequestBody::Stop);
+    household.pass_ms(6_000);
+    let run = last(&household).run;
+    assert_eq!(
+        (run.start_s, run.end_s, run.clock_set_s),
+        (Some(noon_s - 3_600), Some(noon_s - 3_600 + 30), Some(-3_600))
+    );
+    assert!(says(
+        &household,
+        "the clock was set back by 60 min 0 s (clock-set)"
+    ));
 }

@@ -8,6 +8,7 @@ mod drawn_requests;
 mod edges;
 mod floors;
 mod forbidden;
+mod gaps;
 mod halls;
 mod health;
 mod held_stick;

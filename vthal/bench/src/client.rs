@@ -65,6 +65,19 @@ impl Client {
         }
     }
 
+    /// Presses Stop, and gives after what time that was answered.
+    ///
+    /// # Errors
+    /// It was not answered in so much time, or the daemon hung up.
+    pub fn press_stop(&mut self, id: u32, patience: Duration) -> io::Result<Duration> {
+        let pressed = Instant::now();
+        self.send(&format!(r#"{{"c":"stop","id":{id}}}"#))?;
+        let is_done = |update: &Update| matches!(update, Update::Done { id: done } if *done == id);
+        let done = self.wait_for(pressed + patience, is_done)?;
+        done.map(|_| pressed.elapsed())
+            .ok_or_else(|| io::Error::other(format!("stop {id} was not answered")))
+    }
+
     /// Reads until a message fits; `None` when the deadline is over first.
     pub fn wait_for(
         &mut self,

@@ -2,7 +2,10 @@
 #![forbid(unsafe_code)]
 
 mod client;
+mod hostile;
+mod kept_home;
 mod living;
+pub mod nonsense;
 mod process;
 mod pty;
 mod random;
@@ -10,6 +13,8 @@ mod robot;
 mod usage;
 
 pub use client::Client;
+pub use hostile::{HostileKind, Siege, SiegeEnd};
+pub use kept_home::keep_home;
 pub use living::LivingRobot;
 pub use process::{Daemon, Scratch, built_beside, needed_beside};
 pub use pty::Pty;

@@ -47,7 +47,7 @@ pub struct Daemon {
 impl Daemon {
     /// Starts `program` as a daemon on the paths `tty`, `vthal.sock` and `state` of `scratch` and waits until it is ready.
     pub fn start(program: &Path, scratch: &Scratch, more: &[&str]) -> io::Result<Self> {
-        Self::start_on_paths(Command::new(program), scratch, more)
+        Self::start_as(Command::new(program), scratch, more)
     }
 
     /// The same with so many bytes of address space at most: `prlimit` of util-linux sets the limit and becomes the program.
@@ -59,10 +59,11 @@ impl Daemon {
     ) -> io::Result<Self> {
         let mut command = Command::new("prlimit");
         command.arg(format!("--as={address_space_bytes}")).arg(program);
-        Self::start_on_paths(command, scratch, more)
+        Self::start_as(command, scratch, more)
     }
 
-    fn start_on_paths(mut command: Command, scratch: &Scratch, more: &[&str]) -> io::Result<Self> {
+    /// The same by a command that becomes the program.
+    pub fn start_as(mut command: Command, scratch: &Scratch, more: &[&str]) -> io::Result<Self> {
         command
             .arg("--serial")
             .arg(scratch.join("tty"))

@@ -51,6 +51,11 @@ impl SyntheticRobot {
         })
     }
 
+    /// When its clock, which its reports tell in milliseconds, was 0.
+    pub fn started(&self) -> Instant {
+        self.started
+    }
+
     /// Whether a daemon has opened a session.
     pub fn is_sealed(&self) -> bool {
         self.session.mode() == Mode::Checked

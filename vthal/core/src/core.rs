@@ -138,11 +138,9 @@ impl Core {
 
     fn take(&mut self, now_us: u64, input: Input<'_>, outputs: &mut Outputs) {
         match input {
-            Input::LinkOpened => {
-                let mut teller = self.audience.teller(self.now(now_us), outputs);
-                self.link.opened(&self.config.make, &mut teller);
-            }
+            Input::LinkOpened => self.link_opened(now_us, outputs),
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
+            Input::FramingErrors(count) => self.link.count_framing_errors(count),
             Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
             Input::BoardHeading { heading_urad } => {
                 if let Some(brain_session) = &mut self.brain_session {
@@ -237,6 +235,11 @@ impl Core {
     /// The clients that follow `topic`, in the order in which they connected.
     pub fn followers(&self, topic: Topic) -> impl Iterator<Item = ClientId> + '_ {
         self.audience.clients.followers(topic)
+    }
+
+    fn link_opened(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.link.opened(&self.config.make, &mut teller);
     }
 
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {

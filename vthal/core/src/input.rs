@@ -18,6 +18,8 @@ pub enum Input<'a> {
     LinkOpened,
     /// Bytes came from the robot.
     LinkBytes(&'a [u8]),
+    /// The serial port says that so many of the bytes just told had a framing or parity error, or were a break.
+    FramingErrors(u32),
     /// The link is gone.
     LinkClosed {
         /// Why, for the log.

@@ -156,6 +156,7 @@ mod tests {
             by: RunAsker::Button,
             start_s,
             end_s: None,
+            clock_set_s: None,
             duration_s: 5_400.0,
             moving_s: 3_600.0,
             swept_m2: 12.5,

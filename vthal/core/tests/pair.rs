@@ -1582,6 +1582,43 @@ fn dock_at(x: f64, y: f64) -> RequestBody {
     RequestBody::MoveDock { x, y, heading: 0.5 }
 }
 
+/// What nobody can mean is refused by its name, and no sentence about it has hundreds of digits.
+#[test]
+fn numbers_out_of_range_are_refused_in_short_sentences() {
+    let mut pair = on_the_dock();
+    let dock = |x, y, heading| RequestBody::MoveDock { x, y, heading };
+    let runs = |count| RequestBody::Runs {
+        before: None,
+        count: Some(count),
+    };
+    let far = vec![[0.0, 0.0], [1e300, 0.0], [0.0, -1e300]];
+    let requests = [
+        dock(1.0, 1.0, 1e300),
+        dock(1.0, 1.0, 7.0),
+        dock(1e300, 1.0, 0.0),
+        runs(0),
+        runs(255),
+        RequestBody::Clean(clean(vec![JobPart::Zone(far.clone())], 1)),
+        RequestBody::Clean(clean(vec![JobPart::Spot([1e300, 0.0])], 1)),
+        RequestBody::AddNoGo {
+            shape: NoGoShape::Zone(far),
+            name: None,
+        },
+    ];
+    for request in requests {
+        let before = pair.updates.len();
+        let refused = pair.ask(ANNA, request.clone());
+        assert!(refused.is_some(), "{request:?}");
+        for update in &pair.updates[before..] {
+            if let Update::Failed(failure) = update {
+                assert!(failure.text.len() < 200, "{request:?}: {}", failure.text);
+            }
+        }
+        pair.run_ms(100);
+        assert_eq!(pair.core.status().state, "docked", "{request:?}");
+    }
+}
+
 #[test]
 fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
     let mut pair = on_the_dock();

@@ -131,6 +131,8 @@ impl Daemon {
         };
         match event {
             LinkEvent::Bytes(bytes) => running.handle.tell(RobotEvent::Received(bytes)),
+            // The procedure judges packets, whose checksums say the same.
+            LinkEvent::FramingErrors(_) => {}
             LinkEvent::Closed(_) => {
                 running.link_is_open = false;
                 running

@@ -1,6 +1,7 @@
 //! The link to the robot, whatever it is made of: opened for ever, read and written by one task that turns it into events.
 
 mod clocked;
+mod line_marks;
 mod moved;
 mod network;
 mod opening;
@@ -21,7 +22,9 @@ use vthal_core::device::Opening;
 use vthal_core::{LineHolder, LinkLoss};
 
 use crate::event::{Event, LinkEvent};
+use crate::serial_identity::BY_ID;
 
+use line_marks::{LineMarks, Unmarked};
 use moved::Moved;
 use opening::open_to_robot;
 pub(crate) use opening::{Link, LinkOpenError};
@@ -81,7 +84,7 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: L
     let mut baud = rates.next().unwrap_or_default();
     let mut pause = PAUSE_MIN;
     let mut reported: Option<String> = None;
-    let mut place = Moved::new(robot.address.clone());
+    let mut place = Moved::new(robot.address.clone(), BY_ID.into());
     loop {
         orders.await_holder(LineHolder::Daemon).await;
         let event = match open_to_robot((place.address(), robot.opening), baud).await {
@@ -146,17 +149,19 @@ async fn pass_bytes(link: &mut Link, events: &Sender<Event>, orders: &mut LineOr
     let mut read_any = false;
     let LineOrders { to_robot, holder } = orders;
     let has_rates = link.has_rates;
+    let mut marks = link.marks;
     let (mut reader, mut writer) = tokio::io::split(&mut link.stream);
-    let end = loop {
+    let end = 'passing: loop {
         tokio::select! {
             Ok(_) = holder.wait_for(|holder| *holder == LineHolder::Client) => break LineEnd::Lost(LinkLoss::Lent),
             read = reader.read(&mut buffer) => match read {
                 Ok(0) => break LineEnd::Lost(LinkLoss::HungUp),
                 Ok(count) => {
                     read_any = true;
-                    let bytes = buffer.get(..count).unwrap_or_default().to_vec();
-                    if events.send(Event::Link(LinkEvent::Bytes(bytes))).await.is_err() {
-                        break LineEnd::Lost(LinkLoss::HungUp);
+                    for event in received(&mut marks, buffer.get(..count).unwrap_or_default()) {
+                        if events.send(Event::Link(event)).await.is_err() {
+                            break 'passing LineEnd::Lost(LinkLoss::HungUp);
+                        }
                     }
                 }
                 Err(error) => break loss_of(&error),
@@ -173,6 +178,20 @@ async fn pass_bytes(link: &mut Link, events: &Sender<Event>, orders: &mut LineOr
         }
     };
     (link.said_why(end), read_any)
+}
+
+/// What a piece that was read says: bytes, and that some of them had errors.
+fn received(marks: &mut Option<LineMarks>, piece: &[u8]) -> impl Iterator<Item = LinkEvent> {
+    let Unmarked { bytes, errors } = match marks {
+        Some(marks) => marks.take_out(piece),
+        None => Unmarked {
+            bytes: piece.to_vec(),
+            errors: 0,
+        },
+    };
+    let bytes = (!bytes.is_empty()).then_some(LinkEvent::Bytes(bytes));
+    let errors = (errors > 0).then_some(LinkEvent::FramingErrors(errors));
+    bytes.into_iter().chain(errors)
 }
 
 impl Link {
@@ -240,3 +259,6 @@ fn loss_of(error: &io::Error) -> LineEnd {
         },
     )
 }
+
+#[cfg(test)]
+mod tests;

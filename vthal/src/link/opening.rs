@@ -12,6 +12,7 @@ use serial2_tokio::rs4xx::{Rs485Config, TransceiverMode};
 use tokio::io::{AsyncRead, AsyncWrite};
 use vthal_core::device::Opening;
 
+use super::line_marks::{LineMarks, mark_errors};
 use super::pair_driver::GpioDriver;
 use super::{clocked, network, shared_wire};
 use crate::serial::{self, DeviceLock, Line, OpenError, SerialSettings};
@@ -28,6 +29,8 @@ pub(crate) struct Link {
     pub stream: Box<dyn ByteStream>,
     /// What it can.
     pub abilities: Abilities,
+    /// The kernel marks bytes that came with an error.
+    pub marks: Option<LineMarks>,
     /// Whether another rate may be tried.
     pub has_rates: bool,
     /// Why what serves the other end of the stream has ended.
@@ -74,6 +77,7 @@ pub(super) async fn open_to_robot(
     let link = |stream: Box<dyn ByteStream>, lock, complaint| Link {
         stream,
         abilities,
+        marks: None,
         has_rates: matches!(address, LinkAddress::Uart(_)),
         complaint,
         _lock: lock,
@@ -84,7 +88,11 @@ pub(super) async fn open_to_robot(
             let refused = |error| OpenError::refused(&uart.path, error);
             wake(&line.port, opening).await.map_err(refused)?;
             let driver = match &uart.wires {
-                Wires::Two => return Ok(link(Box::new(line.port), Some(line.lock), None)),
+                Wires::Two => {
+                    let marks = marks_of(&line);
+                    let link = link(Box::new(line.port), Some(line.lock), None);
+                    return Ok(Link { marks, ..link });
+                }
                 Wires::One => None,
                 Wires::Pair(direction) => drive_pair(&line.port, direction, uart)?,
             };
@@ -100,7 +108,9 @@ pub(super) async fn open_to_robot(
             wake(&line.port, opening)
                 .await
                 .map_err(|error| OpenError::refused(path, error))?;
-            Ok(link(Box::new(line.port), Some(line.lock), None))
+            let marks = marks_of(&line);
+            let link = link(Box::new(line.port), Some(line.lock), None);
+            Ok(Link { marks, ..link })
         }
         _ if opening.wake_pulse_ms > 0 => Err(LinkOpenError::NoPulse),
         LinkAddress::Tcp(peer) => Ok(link(Box::new(network::connect(peer).await?), None, None)),
@@ -123,6 +133,12 @@ fn open_serial(path: &Path, baud: u32) -> Result<Line, OpenError> {
         path: path.to_owned(),
         baud,
     })
+}
+
+/// Asks the kernel to mark bytes that come with an error. A port that refuses works without; who shares a wire hears itself, and
+/// what it hears then proves nothing.
+fn marks_of(line: &Line) -> Option<LineMarks> {
+    mark_errors(&line.lock).ok().map(|()| LineMarks::default())
 }
 
 /// The kernel switches the driver of the pair itself, to the bit, where that of the port can; else a GPIO line that a program

@@ -19,7 +19,7 @@ use super::{COMMANDS, DECISIONS, DEVICE, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
     /// The file system refuses.
-    #[error("cannot write the recording {}: {error}", .path.display())]
+    #[error("cannot write the recording {}: {}", .path.display(), why(.error))]
     Write {
         /// The file.
         path: PathBuf,
@@ -42,6 +42,15 @@ pub enum RecordError {
     /// The record cannot be spelled.
     #[error("a record cannot be spelled as JSON: {0}")]
     Spell(#[from] serde_json::Error),
+}
+
+/// Why the library of recordings failed: where the system refused a write, in the system's words. Its own would tell of compression, which
+/// nobody asked for, when the disk is full.
+fn why(error: &mcap::McapError) -> String {
+    match error {
+        mcap::McapError::Io(error) => error.to_string(),
+        other => other.to_string(),
+    }
 }
 
 /// A recording while it is written. What was flushed survives a kill at any later moment.
@@ -259,5 +268,25 @@ fn metadata(start: &RunStart, settings: &str) -> Metadata {
             .into_iter()
             .map(|(key, value)| (key.to_owned(), value))
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+
+    use super::RecordError;
+
+    #[test]
+    fn a_full_disk_is_called_a_full_disk() {
+        let full = io::Error::from_raw_os_error(rustix::io::Errno::NOSPC.raw_os_error());
+        let error = RecordError::Write {
+            path: "recordings/000001.mcap".into(),
+            error: mcap::McapError::Io(full),
+        };
+        assert_eq!(
+            error.to_string(),
+            "cannot write the recording recordings/000001.mcap: No space left on device (os error 28)"
+        );
     }
 }

@@ -16,10 +16,8 @@ use rvac_protocol::crc::{Digest, Direction as CrcDirection};
 use rvac_protocol::message::{self, BinaryKinds};
 
 use rustix::process::{Pid, Signal, kill_process};
-use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
+use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot, keep_home};
 use vthal_core::stored_map;
-
-use crate::kept_home::keep_home;
 
 /// Generous: the machine may be busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -551,8 +549,13 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
         let body = RequestBody::SaveMix { profile, was: None };
         serde_json::to_string(&Request { id: Some(9), body }).expect("JSON")
     };
+    let socket = desk.scratch.join("vthal.sock");
+    let mut other_page = Client::watching(&socket, r#"["inputs"]"#).expect("connects");
     desk.client.send(&save(profile.clone())).expect("sends");
     assert_eq!(refused(&mut desk), None);
+    let saved = |update: &Update| matches!(update, Update::Mixes { mixes } if *mixes == [profile.clone()]);
+    let heard = other_page.wait_for(soon(), saved).expect("reads");
+    assert!(heard.is_some(), "whoever edits elsewhere hears of it");
     desk.client
         .send(&save(profile.replace("pad-0", "pad-9")))
         .expect("sends");
@@ -573,7 +576,7 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
 #[test]
 fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     let scratch = Scratch::new().expect("creates");
-    let maps = keep_home(&scratch);
+    let maps = keep_home(&scratch).expect("writes");
     let mut robot = robot(&scratch, 1);
     robot.dock();
     let daemon = start(&scratch);
@@ -630,22 +633,34 @@ fn a_client_that_ended_its_side_gets_its_answers_and_leaves_the_seat() {
 
 #[test]
 fn damaged_files_are_told_to_clients_and_kept() {
+    // What is put aside has another name; what has versions stays.
+    let kept = [
+        ("schedules.json", "schedules.json.damaged-1"),
+        ("health.json", "health.json.damaged-1"),
+        ("learnt.json", "learnt.json.damaged-1"),
+        ("statistics.json", "statistics.json.damaged-1"),
+        ("maps/floors.json", "maps/floors.json.damaged-1"),
+        ("mixes/Sofa.json", "mixes/Sofa.json.damaged-1"),
+        ("maps/000001.map", "maps/000001.map"),
+        ("checkpoint", "checkpoint"),
+    ];
     let scratch = Scratch::new().expect("creates");
-    fs::create_dir_all(scratch.join("state/maps")).expect("creates");
-    for file in ["schedules.json", "maps/000001.map"] {
+    for folder in ["state/maps", "state/mixes"] {
+        fs::create_dir_all(scratch.join(folder)).expect("creates");
+    }
+    for (file, _) in kept {
         fs::write(scratch.join("state").join(file), "{").expect("writes");
     }
     let _daemon = start(&scratch);
     let mut client = follow(&scratch);
-    for said in [
-        "schedules.json cannot be read",
-        "000001.map: it does not begin like a map",
-    ] {
-        let found = client.wait_for(soon(), |update| has_text(update, said));
-        assert!(found.expect("reads").is_some(), "{said}");
-    }
-    for file in ["schedules.json.damaged-1", "maps/000001.map"] {
-        assert_eq!(fs::read(scratch.join("state").join(file)).expect("reads"), b"{");
+    let mut untold: Vec<&str> = kept.iter().map(|(file, _)| *file).collect();
+    let all_told = client.wait_for(soon(), |update| {
+        untold.retain(|file| !has_text(update, file));
+        untold.is_empty()
+    });
+    assert!(all_told.expect("reads").is_some(), "{untold:?} are not told");
+    for (_, file) in kept.iter().filter(|(file, _)| *file != "checkpoint") {
+        assert_eq!(fs::read(scratch.join("state").join(file)).expect(file), b"{");
     }
 }
 
@@ -820,6 +835,20 @@ fn asked_of_runs(client: &mut Client, request: &str) -> Update {
     };
     let answer = client.wait_for(soon(), is_answer).expect("reads");
     answer.expect("an answer")
+}
+
+#[test]
+fn starts_without_a_job_take_no_place_among_the_recordings() {
+    let scratch = Scratch::new().expect("creates");
+    let mut robot = robot(&scratch, 1);
+    for _ in 0..3 {
+        let daemon = start(&scratch);
+        let mut client = follow(&scratch);
+        wait_for_state(&mut robot, &mut client, "idle");
+        daemon.kill().expect("kills");
+    }
+    let recordings = fs::read_dir(scratch.join("state/runs")).expect("a folder");
+    assert_eq!(recordings.count(), 0);
 }
 
 #[test]

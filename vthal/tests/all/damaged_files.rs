@@ -7,11 +7,12 @@ use std::time::{Duration, Instant};
 
 use rvac_api::{Request, RequestBody, Update};
 use rvac_protocol::message::BinaryKinds;
-use serde_json::Value;
-use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot, next_random, resident_max_mib};
+use vthal_bench::nonsense::{change, index};
+use vthal_bench::{
+    Client, Daemon, LivingRobot, Scratch, SyntheticRobot, keep_home, next_random, resident_max_mib,
+};
 
-use crate::kept_home::keep_home;
-use crate::nonsense::{PATIENCE, index, press_stop, start_in_little_memory, value};
+use crate::little_memory::{PATIENCE, press_stop, start_in_little_memory};
 
 /// Starts with other damage each.
 const STARTS: u64 = 100;
@@ -51,7 +52,7 @@ fn ask(client: &mut Client, request: &str) {
 /// A folder in which each kind of file was kept by a daemon.
 fn lived_in() -> Vec<Kept> {
     let scratch = Scratch::new().expect("creates");
-    keep_home(&scratch);
+    keep_home(&scratch).expect("writes");
     let mut robot =
         SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1).expect("opens a terminal");
     robot.dock();
@@ -104,28 +105,6 @@ fn files_below(folder: &Path) -> Vec<Kept> {
     }
     files.sort();
     files
-}
-
-/// Replaces one value anywhere in a document.
-fn change(document: &mut Value, state: &mut u64) {
-    let count = match &*document {
-        Value::Array(items) => items.len(),
-        Value::Object(members) => members.len(),
-        _ => 0,
-    };
-    let chosen = if count == 0 || index(state, 5) == 0 {
-        None
-    } else {
-        match document {
-            Value::Array(items) => items.get_mut(index(state, count)),
-            Value::Object(members) => members.values_mut().nth(index(state, count)),
-            _ => None,
-        }
-    };
-    match chosen {
-        Some(inner) => change(inner, state),
-        None => *document = serde_json::from_str(&value(state)).unwrap_or(Value::Null),
-    }
 }
 
 /// The bytes of a file as something has changed them.

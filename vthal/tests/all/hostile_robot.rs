@@ -6,9 +6,10 @@ use std::time::{Duration, Instant};
 use rvac_api::Update;
 use rvac_protocol::message::BinaryKinds;
 use serde_json::Value;
+use vthal_bench::nonsense::{index, value};
 use vthal_bench::{Client, LivingRobot, Scratch, SyntheticRobot, next_random, resident_max_mib};
 
-use crate::nonsense::{PATIENCE, index, press_stop, start_in_little_memory, value};
+use crate::little_memory::{PATIENCE, press_stop, start_in_little_memory};
 
 /// Packets that the robot says, and after so many of them each listens once.
 const PACKETS: usize = 30_000;

@@ -21,6 +21,8 @@ enum Subject {
     Panel,
     /// The daemon killed at random moments while a robot drives.
     Kill,
+    /// Ten hostile clients of each kind, and a line that fails: how soon Stop is answered, how late telemetry comes, what it takes.
+    Siege,
     /// Daemon and panel's server killed at random moments while they write what people entrusted to them.
     Writes,
     /// The simulator against real time with each strategy, and where the time goes.
@@ -104,7 +106,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     }
     if matches!(
         arguments.subject,
-        Subject::Relay | Subject::Kill | Subject::Writes
+        Subject::Relay | Subject::Kill | Subject::Siege | Subject::Writes
     ) {
         workspace::build(
             &["vthal", "rvac-sim", "panel-server"],
@@ -227,6 +229,7 @@ fn program(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Relay => &["--bin", "bench-relay"],
         Subject::Panel => &["--bin", "bench-panel"],
         Subject::Kill => &["--bin", "bench-kill"],
+        Subject::Siege => &["--bin", "bench-siege"],
         Subject::Writes => &["--bin", "bench-writes"],
         Subject::Sim => &["--bin", "bench-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
@@ -257,6 +260,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         Subject::Link
         | Subject::Relay
         | Subject::Panel
+        | Subject::Siege
         | Subject::Writes
         | Subject::Cordlib
         | Subject::Relax
@@ -296,6 +300,7 @@ fn longer(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Board => &["--seeds", "1000", "--log-hours", "168"],
         Subject::Sim => &["--minutes", "240"],
+        Subject::Siege => &["--seconds", "60"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Cordlib | Subject::Relax | Subject::LogicMutants | Subject::Scripts => &[],
     }

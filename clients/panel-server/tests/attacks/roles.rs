@@ -1,7 +1,7 @@
 //! A1, A2: who has no token, and who has one of a role that is too low.
 
 use pairing::{Method, Need, PRESENCE, ROUTES, Role};
-use rvac_api::VERBS;
+use rvac_api::{VERBS, example_of};
 
 use crate::report::Report;
 use crate::rig::{Answer, Rig};
@@ -107,10 +107,8 @@ async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
     let mut socket = rig.socket(cookie).await;
     let mut daemon = rig.daemon().await;
     for (verb, needed) in VERBS {
-        let arguments = arguments_of(verb);
-        socket
-            .say(&format!(r#"{{"id":1,"c":"{verb}"{arguments}}}"#))
-            .await;
+        let example = example_of(verb).expect("each request has one");
+        socket.say(&example.replacen('{', r#"{"id":1,"#, 1)).await;
         socket.say(r#"{"id":2,"c":"maps"}"#).await;
         let first = daemon.hear().await.unwrap_or_default();
         let heard = first.contains(&format!(r#""c":"{verb}""#)) && first.contains(r#""id":1"#);
@@ -128,53 +126,5 @@ async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
             "nobody hears it"
         };
         report.row(("A2", format!("{role}: {verb}")), expected, seen);
-    }
-}
-
-/// What each request must say besides.
-fn arguments_of(verb: &str) -> &'static str {
-    match verb {
-        "answer-calibration" => r#","page":1,"answer":"go""#,
-        "hold-calibration" => r#","held":false"#,
-        "hello" => r#","name":"x""#,
-        "watch" => r#","topics":[]"#,
-        "clean" | "estimate" => r#","parts":[]"#,
-        "drive" => r#","v":0.1,"w":0.0,"ttl":250"#,
-        "clear" => r#","reason":"x""#,
-        "add-no-go" => r#","shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
-        "reshape-no-go" => r#","number":1,"shape":{"wall":[[0.0,0.5],[1.0,0.5]]}"#,
-        "keep-place" => r#","name":"x","shape":{"spot":[0.0,0.5]}"#,
-        "reshape-place" => r#","number":1,"shape":{"spot":[0.0,0.5]}"#,
-        "name-place" => r#","number":1,"name":"x""#,
-        "name-room" => r#","room":1,"name":"x""#,
-        "split-room" => r#","line":[[0.0,0.5],[1.0,0.5]]"#,
-        "set-room" => r#","room":1"#,
-        "move-dock" => r#","x":0.0,"y":0.0,"heading":0.0"#,
-        "join-rooms" => r#","rooms":[1,2]"#,
-        "remove-no-go" | "name-no-go" | "forget-place" | "undo-room-change" | "restore-map"
-        | "remove-schedule" | "run-schedule" | "run" => r#","number":1"#,
-        "run-file" => r#","number":1,"from":0"#,
-        "run-track" => r#","number":1"#,
-        "choose-floor" | "name-floor" | "remove-floor" | "restore-floor" => r#","floor":1"#,
-        "export-floors" => r#","from":0"#,
-        "import-floors" => r#","from":0,"size":3,"data":"AAEC""#,
-        "save-mix" => r#","profile":"{}""#,
-        "renew-part" | "undo-renew-part" => r#","component":"filter""#,
-        "reset-health" => r#","component":"brush-main""#,
-        "forget-learnt" => r#","device":"sr8730""#,
-        "remove-mix" => r#","name":"x""#,
-        "enable-schedule" => r#","number":1,"enabled":true"#,
-        "skip-next" => r#","number":1,"skip":true"#,
-        "add-schedule" => {
-            r#","name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
-        }
-        "change-schedule" => {
-            r#","number":1,"name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
-        }
-        "claim-buttons" => r#","ms":0"#,
-        "borrow-link" => r#","silent":false"#,
-        "set-inputs" => r#","values":{},"ttl":300"#,
-        "raw" => r#","packet":"{}""#,
-        _ => "",
     }
 }

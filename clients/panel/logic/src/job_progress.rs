@@ -186,6 +186,7 @@ mod tests {
             by: RunAsker::Robot,
             start_s: None,
             end_s: None,
+            clock_set_s: None,
             duration_s: 1091.0,
             moving_s: 1000.0,
             swept_m2: 23.44,

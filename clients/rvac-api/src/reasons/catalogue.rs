@@ -95,6 +95,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("zone-changed", "The time zone of the robot's computer was changed.", "Look at the schedules: their times are in the new zone, unless they have one of their own."),
     entry("zone-unknown", "The robot's computer does not say in which time zone it is.", "Set it (timedatectl set-timezone), or choose a time zone with the schedules."),
     entry("zone-variable-unknown", "TZ in the environment of the robot's software names no time zone.", "Correct that name, or remove it: then the zone of the robot's computer counts."),
+    entry("clock-set", "The clock of the robot's computer was set.", "Nothing to do, if it is right now: what was due in between is decided by the rules of the schedules."),
     entry("busy", "Too much was asked at once.", "Try again."),
     entry("unknown-component", "The robot knows no such part.", "The answer to health lists them."),
     entry("not-renewed", "Nobody has said that this part was replaced or cleaned.", "There is nothing to undo."),

@@ -12,7 +12,7 @@ pub(super) fn list(runs: &[Run], more: bool) -> String {
     }
     for run in runs {
         text += &format!(
-            "{:<4} {:<16} {:<9} {:>7} {:>8} {:>8}  {}\n",
+            "{:<4} {:<20} {:<9} {:>7} {:>8} {:>8}  {}\n",
             run.number,
             when(run.start_s),
             job_name(&run.job),
@@ -57,6 +57,11 @@ pub(super) fn record(record: &RunRecord) -> String {
         run.path_m,
         run.bumps,
     );
+    if let Some(by_s) = run.clock_set_s {
+        let direction = if by_s < 0 { "back" } else { "forward" };
+        let by = span(by_s.unsigned_abs() as f64);
+        text += &format!("clock     set {direction} by {by} meanwhile; both times are by the later one\n");
+    }
     text += &format!("battery   {}\n", charge(run));
     text += &match run.map {
         Some(map) => format!("map       version {map}\n"),
@@ -101,14 +106,15 @@ fn stop_line(stop: &RunStop) -> String {
     )
 }
 
-/// A time as clocks here show it.
+/// A time as clocks here show it, with the name of the zone: a computer whose zone nobody has set shows another one.
 pub(crate) fn when(utc_s: Option<i64>) -> String {
+    when_in(utc_s, TimeZone::system())
+}
+
+fn when_in(utc_s: Option<i64>, zone: TimeZone) -> String {
     let time = utc_s.and_then(|utc_s| Timestamp::from_second(utc_s).ok());
     match time {
-        Some(time) => time
-            .to_zoned(TimeZone::system())
-            .strftime("%Y-%m-%d %H:%M")
-            .to_string(),
+        Some(time) => time.to_zoned(zone).strftime("%Y-%m-%d %H:%M %Z").to_string(),
         None => "clock not set".to_owned(),
     }
 }
@@ -189,7 +195,9 @@ fn asker(by: &RunAsker) -> String {
 mod tests {
     use rvac_api::RunRecord;
 
-    use super::{list, record};
+    use jiff::tz::TimeZone;
+
+    use super::{list, record, when_in};
 
     fn kept() -> RunRecord {
         let text = r#"{"run":{"number":7,"job":{"clean":{"strategy":"systematic","rooms":[{"id":2,"name":"Köök"}],
@@ -218,11 +226,22 @@ mod tests {
     }
 
     #[test]
+    fn a_time_says_in_which_zone_it_is() {
+        let tallinn = TimeZone::get("Europe/Tallinn").expect("built in");
+        assert_eq!(when_in(Some(1_764_500_400), tallinn), "2025-11-30 13:00 EET");
+        assert_eq!(
+            when_in(Some(1_764_500_400), TimeZone::UTC),
+            "2025-11-30 11:00 UTC"
+        );
+        assert_eq!(when_in(None, TimeZone::UTC), "clock not set");
+    }
+
+    #[test]
     fn a_list_tells_how_to_see_older_ones() {
         assert!(list(&[], false).starts_with("no runs yet"));
         let text = list(&[kept().run], true);
         assert!(
-            text.starts_with("7    clock not set    clean in   1 h 05  12.3 m2  98-71 %  Gave up"),
+            text.starts_with("7    clock not set        clean in   1 h 05  12.3 m2  98-71 %  Gave up"),
             "{text}"
         );
         assert!(text.ends_with("--before 7 shows older ones\n"), "{text}");

@@ -11,6 +11,10 @@
 //! whenever there is room -> next_packet(&mut buffer)    -> whether there is something to send
 //! ```
 
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod host;
 mod robot;
 

@@ -1,7 +1,9 @@
 //! The faults, and by which names people hear of each.
 
 use home::{Pcg, SensorFault};
+use vthal_core::schedule::CLOCK_WAS_SET_S;
 
+use super::gap::CarriedGap;
 use super::pad::PadFault;
 use super::zone::ZoneFault;
 
@@ -17,6 +19,8 @@ pub enum BoardFault {
         /// Milliseconds.
         ms: u32,
     },
+    /// Nobody listens for a while, and somebody carries the robot meanwhile.
+    CarriedGap(CarriedGap),
     /// The line is set to another speed than the robot's: its bytes look like noise.
     WrongSpeed,
     /// A login console answers in the place of the robot.
@@ -35,7 +39,7 @@ pub enum BoardFault {
 }
 
 /// Names by which faults are told; whichever is not of the present fault is a wrong cause.
-const NAMES: [&str; 21] = [
+const NAMES: [&str; 22] = [
     "gyro-frozen",
     "gyro-at-its-limit",
     "gyro-disagrees",
@@ -54,6 +58,7 @@ const NAMES: [&str; 21] = [
     "slip",
     "wheel-stall",
     "encoder",
+    "clock-set",
     "zone-changed",
     "zone-unknown",
     "zone-variable-unknown",
@@ -104,17 +109,17 @@ impl BoardFaults {
 }
 
 /// So many kinds take turns.
-pub(super) const KINDS: u64 = 22;
+pub(super) const KINDS: u64 = 23;
 /// Numbers of the first zone's and the first pad's kind.
-const FIRST_ZONE: u64 = 9;
-const FIRST_PAD: u64 = 17;
+const FIRST_ZONE: u64 = 10;
+const FIRST_PAD: u64 = 18;
 
 impl BoardFault {
     /// Whether nothing else is drawn beside it.
     const fn is_lone(self) -> bool {
         matches!(
             self,
-            Self::WrongSpeed | Self::Console | Self::Zone(_) | Self::Pad(_)
+            Self::WrongSpeed | Self::Console | Self::CarriedGap(_) | Self::Zone(_) | Self::Pad(_)
         )
     }
 
@@ -165,6 +170,7 @@ impl BoardFault {
             8 => Self::ClockJump {
                 by_s: ((random.unit() - 0.5) * 7_200.0) as i64,
             },
+            9 => Self::CarriedGap(CarriedGap::drawn(&mut random)),
             kind @ FIRST_ZONE..FIRST_PAD => Self::Zone(ZoneFault::ALL[(kind - FIRST_ZONE) as usize]),
             kind => Self::Pad(PadFault::ALL[(kind - FIRST_PAD) as usize]),
         }
@@ -179,6 +185,7 @@ impl BoardFault {
             Self::Gyro(SensorFault::Noisy(_)) => "gyro-noisy",
             Self::BoardGyroSilent => "board-gyro-silent",
             Self::LineCut { .. } => "line-cut",
+            Self::CarriedGap(_) => "carried-in-a-gap",
             Self::WrongSpeed => "wrong-speed",
             Self::Console => "console",
             Self::DiskRefuses(_) => "disk-refuses",
@@ -195,13 +202,15 @@ impl BoardFault {
             Self::Gyro(_) => &["gyro-disagrees"],
             Self::BoardGyroSilent => &["gyro-silent"],
             Self::LineCut { .. } => &["link-lost"],
+            Self::CarriedGap(gap) if gap.is_told() => &["link-lost"],
             // The pieces of garbage may be judged before their kind is known.
             Self::WrongSpeed => &["line-wrong-speed"],
             Self::Console => &["line-has-console"],
             Self::DiskRefuses(_) => &["schedules-unwritable"],
             Self::Zone(fault) => fault.told_as(),
-            // The last is told where a person drives, and judged by a trial of its own.
-            Self::ClockJump { .. } | Self::Pad(_) => &[],
+            // Less than a minute is not worth a word; a pad is told where a person drives, and judged by a trial of its own.
+            Self::ClockJump { by_s } if by_s.unsigned_abs() >= CLOCK_WAS_SET_S => &["clock-set"],
+            Self::ClockJump { .. } | Self::CarriedGap(_) | Self::Pad(_) => &[],
         }
     }
 

@@ -4,11 +4,13 @@
 //! A fault that shows only while the robot turns, as a gyro's, is told within [`TOLD_MS`] of the first turn.
 
 mod fault;
+mod gap;
 mod pad;
 mod trial;
 mod zone;
 
 pub use fault::{BoardFault, BoardFaults};
+pub use gap::{CarriedGap, Gap, Resumed};
 pub use pad::PadFault;
 pub use trial::{BoardFigures, BoardPassage, TOLD_MS, campaign, passage};
 pub use zone::ZoneFault;

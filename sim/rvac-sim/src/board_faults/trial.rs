@@ -8,7 +8,7 @@ use rvac_api::{RequestBody, ScheduleEntry};
 use serde::Serialize;
 
 use super::fault::{BoardFault, BoardFaults};
-use super::{pad, zone};
+use super::{gap, pad, zone};
 use crate::daily::{MIDNIGHT_S, daily_job};
 use crate::run::{RunSettings, core_config, household, start_cleaning};
 use crate::{Host, Household, Scene, TICK_US};
@@ -96,6 +96,7 @@ pub fn passage(scene: &Scene, seed: u64) -> BoardPassage {
     let passed = match faults.lone() {
         Some(BoardFault::Zone(fault)) => zone::passage(scene, fault, seed),
         Some(BoardFault::Pad(fault)) => pad::passage(scene, fault, seed),
+        Some(BoardFault::CarriedGap(gap)) => gap::passage(scene, gap, seed),
         Some(fault) => strange_line(scene, fault, seed),
         None => Trial::new(scene, faults, seed).run(),
     };
@@ -249,7 +250,11 @@ impl Trial {
                 }
             }
             // These have trials of their own.
-            BoardFault::WrongSpeed | BoardFault::Console | BoardFault::Zone(_) | BoardFault::Pad(_) => {}
+            BoardFault::WrongSpeed
+            | BoardFault::Console
+            | BoardFault::CarriedGap(_)
+            | BoardFault::Zone(_)
+            | BoardFault::Pad(_) => {}
         }
     }
 

@@ -121,3 +121,19 @@ impl Hand {
         Some(end)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{AMOUNT_MAX, HandPath};
+
+    #[test]
+    fn no_hand_moves_for_hours_or_by_what_is_no_number() {
+        for amount in [AMOUNT_MAX, -AMOUNT_MAX, 0.25] {
+            assert!(HandPath::Turn(amount).is_possible(), "{amount}");
+        }
+        for amount in [1e18, -1e18, 1_001.0, f64::NAN, f64::INFINITY] {
+            assert!(!HandPath::Turn(amount).is_possible(), "{amount}");
+            assert!(!HandPath::Push(amount).is_possible(), "{amount}");
+        }
+    }
+}

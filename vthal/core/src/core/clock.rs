@@ -13,9 +13,9 @@ use crate::schedule::{Entry, Outcome, Verdict, ZoneReading};
 impl Core {
     /// The clock on the wall shows this.
     pub(super) fn set_clock(&mut self, now_us: u64, utc_s: i64, outputs: &mut Outputs) {
-        self.history.set_clock(now_us, utc_s);
         let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.history.set_clock(utc_s, &mut teller);
         self.schedules.set_clock(utc_s, &readiness, &mut teller);
     }
 

@@ -12,6 +12,8 @@ use crate::history::{Asked, Moment, RunFollower};
 use crate::refusal::Refusal;
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
 
+/// Name of the line that says by how much the clock on the wall was set.
+const CLOCK_SET: &str = "clock-set";
 /// Runs of a list that names no number, and of any list at most.
 const COUNT: u8 = 20;
 const COUNT_MAX: u8 = 50;
@@ -47,8 +49,14 @@ impl HistoryDesk {
     }
 
     /// The clock on the wall shows this.
-    pub(crate) fn set_clock(&mut self, now_us: u64, utc_s: i64) {
-        self.follower.set_clock(now_us, utc_s);
+    pub(crate) fn set_clock(&mut self, utc_s: i64, teller: &mut Teller<'_>) {
+        let Some(by_s) = self.follower.set_clock(teller.now_us, utc_s) else {
+            return;
+        };
+        let (minutes, seconds) = (by_s.unsigned_abs() / 60, by_s.unsigned_abs() % 60);
+        let direction = if by_s < 0 { "back" } else { "forward" };
+        let text = format!("the clock was set {direction} by {minutes} min {seconds} s ({CLOCK_SET})");
+        teller.log(LogLevel::Info, LogSource::Vthal, text);
     }
 
     /// A recording has this name.

@@ -35,9 +35,11 @@ impl LogSource {
     }
 }
 
-/// The same line about a client is written again after this time; until then it is counted. So many different ones are watched.
+/// The same line about a client is written again after this time; until then it is counted. So many different ones are watched, and
+/// all others together are one more.
 const COUNTED_US: u64 = 5_000_000;
-const COUNTED_MAX: usize = 8;
+const COUNTED_MAX: usize = 32;
+const OTHERS: &str = "more was asked by clients than is told one by one";
 
 /// The newest lines.
 #[derive(Debug, Default)]
@@ -72,19 +74,22 @@ impl Journal {
             let text = format!("{} ({} times more)", line.text, line.times);
             entries.push(self.keep(now_us, line.level, (LogSource::Client, text)));
         }
+        let mut text = text;
         if part == LogSource::Client {
+            let is_watched = self.counted.iter().any(|line| line.text == text);
+            if !is_watched && self.counted.len() >= COUNTED_MAX {
+                text = OTHERS.to_owned();
+            }
             if let Some(line) = self.counted.iter_mut().find(|line| line.text == text) {
                 line.times = line.times.saturating_add(1);
                 return entries;
             }
-            if self.counted.len() < COUNTED_MAX {
-                self.counted.push(CountedLine {
-                    at_us: now_us,
-                    level,
-                    text: text.clone(),
-                    times: 0,
-                });
-            }
+            self.counted.push(CountedLine {
+                at_us: now_us,
+                level,
+                text: text.clone(),
+                times: 0,
+            });
         }
         entries.push(self.keep(now_us, level, (part, text)));
         entries
@@ -110,7 +115,7 @@ impl Journal {
 mod tests {
     use rvac_api::LogLevel;
 
-    use super::{Journal, KEPT, LogSource};
+    use super::{COUNTED_MAX, Journal, KEPT, LogSource, OTHERS};
 
     #[test]
     fn the_newest_lines_are_kept_and_numbers_go_on() {
@@ -121,6 +126,22 @@ mod tests {
         let numbers: Vec<u64> = journal.entries().map(|entry| entry.number).collect();
         assert_eq!(numbers.len(), KEPT);
         assert_eq!((numbers[0], numbers[KEPT - 1]), (6, KEPT as u64 + 5));
+    }
+
+    #[test]
+    fn what_many_clients_do_without_end_is_counted_too() {
+        let mut journal = Journal::default();
+        let mut lines = 0;
+        for at_us in 0..100_000_u64 {
+            let text = format!("stopped by client {}", at_us % 100);
+            lines += journal
+                .write(10 * at_us, LogLevel::Info, (LogSource::Client, text))
+                .len();
+        }
+        assert_eq!(lines, COUNTED_MAX + 1, "in one second");
+        let after = journal.write(6_000_000, LogLevel::Info, (LogSource::Vthal, "rests".to_owned()));
+        assert_eq!(after.len(), COUNTED_MAX + 2, "how often each came, and this one");
+        assert!(after.iter().any(|entry| entry.text.starts_with(OTHERS)));
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::driver::Brakes;
 use super::journal::LogSource;
 use super::link_facts::LinkFacts;
 use super::link_loan::LoanFacts;
-use super::strange_line::{LineCause, LineSight, StrangeLine};
+use super::strange_line::{LineCause, StrangeLine};
 use crate::device::{
     CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkNews, Make, Report,
     SlowFacts, Supervisor, WheelSpeeds,
@@ -90,6 +90,11 @@ impl LinkDesk {
         events
     }
 
+    /// So many of the bytes that were taken last came with an error of the serial port.
+    pub(crate) fn count_framing_errors(&mut self, count: u32) {
+        self.strange.count_framing_errors(count);
+    }
+
     /// Lets time pass; gives the events of the robot.
     pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.pass_time(teller.now_us);
@@ -137,16 +142,10 @@ impl LinkDesk {
         let Some(sight) = self.strange.look(teller.now_us, packets) else {
             return;
         };
-        let LineSight {
-            cause,
-            bytes_per_s,
-            text_share,
-        } = sight;
-        let name = cause.name();
+        let name = sight.cause.name();
         let text = format!(
-            "{name}: {} Seen: {bytes_per_s:.0} bytes a second, {:.0} % of them text, no packet of a robot.",
-            refusal::text(name),
-            100.0 * text_share
+            "{name}: {} Seen: {sight}, no packet of a robot.",
+            refusal::text(name)
         );
         teller.log(LogLevel::Warn, LogSource::Link, text);
     }

@@ -31,7 +31,7 @@ pub(crate) struct LinkFacts {
 
 impl LinkFacts {
     pub(crate) fn opened(&mut self, now_us: u64) {
-        self.opened += 1;
+        self.opened = self.opened.saturating_add(1);
         self.is_open = true;
         self.report_us = None;
         self.rate_since_us = now_us;
@@ -60,7 +60,7 @@ impl LinkFacts {
     pub(crate) fn greeted(&mut self, greeting: &Greeting) {
         self.report = None;
         self.reset_cause = greeting.reset_cause;
-        self.resets += u32::from(greeting.was_reset);
+        self.resets = self.resets.saturating_add(u32::from(greeting.was_reset));
     }
 
     pub(crate) fn take_report(&mut self, now_us: u64, report: Report) {
@@ -84,11 +84,11 @@ impl LinkFacts {
     }
 
     pub(crate) fn count_in(&mut self, bytes: usize) {
-        self.bytes_in.counted += bytes as u64;
+        self.bytes_in.counted = self.bytes_in.counted.saturating_add(bytes as u64);
     }
 
     pub(crate) fn count_out(&mut self, bytes: usize) {
-        self.bytes_out.counted += bytes as u64;
+        self.bytes_out.counted = self.bytes_out.counted.saturating_add(bytes as u64);
     }
 
     pub(crate) fn pass_time(&mut self, now_us: u64) {

@@ -25,6 +25,10 @@ pub(crate) mod jobs;
 pub(crate) mod journal;
 pub(crate) mod learnt;
 pub(crate) mod link;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod link_facts;
 pub(crate) mod link_loan;
 pub(crate) mod readiness;
@@ -35,6 +39,10 @@ mod scheduler;
 pub(crate) mod schedules;
 pub(crate) mod sources;
 pub(crate) mod standstills;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod strange_line;
 pub(crate) mod system_zone;
 pub(crate) mod words;

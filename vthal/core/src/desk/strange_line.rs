@@ -1,7 +1,10 @@
 //! What comes over the line while no robot describes itself: how much, what it looks like, and the likely cause.
 //!
 //! A robot at the wrong speed sends as many bytes as ever, and they look like noise. A login console or the messages of another
-//! computer are text. Both used to sound like a pulled cable.
+//! computer are text. Both used to sound like a pulled cable. Where the serial port tells how many bytes had no stop bit in its place,
+//! that decides what their look leaves open.
+
+use core::fmt;
 
 /// What is judged at a time, microseconds: a console that only prompts has said something by then.
 const LOOK_US: u64 = 3_000_000;
@@ -11,6 +14,8 @@ const BYTES_MIN: u32 = 48;
 const TEXT_SHARE: f64 = 0.9;
 /// and below which it is no text. Bytes at random are text in 38 of 100.
 const NOISE_SHARE: f64 = 0.75;
+/// Share of bytes with framing errors above which the speed is wrong, whatever the bytes look like: a sound line has next to none.
+const FRAMING_SHARE: f64 = 0.05;
 /// The same cause is told again after this time.
 const AGAIN_US: u64 = 600_000_000;
 
@@ -39,6 +44,28 @@ pub(crate) struct LineSight {
     pub(crate) cause: LineCause,
     pub(crate) bytes_per_s: f64,
     pub(crate) text_share: f64,
+    /// None came, or the link has no port that tells them.
+    pub(crate) framing_errors_per_s: f64,
+}
+
+impl fmt::Display for LineSight {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            bytes_per_s,
+            text_share,
+            framing_errors_per_s,
+            ..
+        } = self;
+        let text_percent = 100.0 * text_share;
+        write!(
+            formatter,
+            "{bytes_per_s:.0} bytes a second, {text_percent:.0} % of them text"
+        )?;
+        if *framing_errors_per_s > 0.0 {
+            write!(formatter, ", {framing_errors_per_s:.0} framing errors a second")?;
+        }
+        Ok(())
+    }
 }
 
 /// Counts what comes while nobody describes himself.
@@ -47,6 +74,7 @@ pub(crate) struct StrangeLine {
     since_us: u64,
     bytes: u32,
     text: u32,
+    framing_errors: u32,
     /// Packets of a robot that had come at the last look.
     packets: u32,
     cause: Option<LineCause>,
@@ -56,7 +84,7 @@ pub(crate) struct StrangeLine {
 impl StrangeLine {
     /// The line was opened, or a robot has described itself.
     pub(crate) fn restart(&mut self, now_us: u64) {
-        (self.since_us, self.bytes, self.text) = (now_us, 0, 0);
+        (self.since_us, self.bytes, self.text, self.framing_errors) = (now_us, 0, 0, 0);
         self.cause = None;
     }
 
@@ -72,6 +100,10 @@ impl StrangeLine {
         let narrow = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
         self.bytes = self.bytes.saturating_add(narrow(bytes.len()));
         self.text = self.text.saturating_add(narrow(text));
+    }
+
+    pub(crate) fn count_framing_errors(&mut self, count: u32) {
+        self.framing_errors = self.framing_errors.saturating_add(count);
     }
 
     /// The likely cause.
@@ -91,13 +123,17 @@ impl StrangeLine {
             return None;
         }
         let text_share = f64::from(self.text) / f64::from(self.bytes.max(1));
+        let framing_share = f64::from(self.framing_errors) / f64::from(self.bytes.max(1));
+        let per_s = |count: u32| f64::from(count) * 1e6 / passed_us as f64;
         let sight = |cause| LineSight {
             cause,
-            bytes_per_s: f64::from(self.bytes) * 1e6 / passed_us as f64,
+            bytes_per_s: per_s(self.bytes),
             text_share,
+            framing_errors_per_s: per_s(self.framing_errors),
         };
         let seen = match self.bytes {
             bytes if bytes < BYTES_MIN => None,
+            _ if framing_share >= FRAMING_SHARE => Some(sight(LineCause::WrongSpeed)),
             _ if text_share >= TEXT_SHARE => Some(sight(LineCause::Console)),
             _ if text_share < NOISE_SHARE => Some(sight(LineCause::WrongSpeed)),
             _ => None,
@@ -147,6 +183,28 @@ mod tests {
         assert_eq!(line.cause(), Some(LineCause::Console));
         assert_eq!(look_after(&mut line, 180, b""), []);
         assert_eq!(line.cause(), None, "silence is silence");
+    }
+
+    #[test]
+    fn framing_errors_are_told_and_tell_a_wrong_speed_whatever_it_looks_like() {
+        let mut line = StrangeLine::default();
+        let looks_like_text = b"pppp~~~~xxxx";
+        let mut seen = Vec::new();
+        for second in 0..6 {
+            for _ in 0..100 {
+                line.count(looks_like_text);
+                line.count_framing_errors(4);
+            }
+            seen.extend(line.look((second + 1) * 1_000_000, 0));
+        }
+        let [sight] = seen.as_slice() else {
+            panic!("told once: {seen:?}")
+        };
+        assert_eq!(sight.cause, LineCause::WrongSpeed);
+        assert_eq!(
+            sight.to_string(),
+            "1200 bytes a second, 100 % of them text, 400 framing errors a second"
+        );
     }
 
     #[test]

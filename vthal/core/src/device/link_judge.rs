@@ -128,7 +128,7 @@ impl LinkJudge {
                 count: 0,
             };
         }
-        self.stale.count += 1;
+        self.stale.count = self.stale.count.saturating_add(1);
         if self.stale.count >= STALE_MAX {
             self.stale.count = 0;
             self.stand(now_us, LinkFault::CommandsStale);
@@ -178,7 +178,7 @@ impl LinkJudge {
 
     /// Share of its speed that the robot may drive at.
     pub(super) fn speed_share(&self, fresh_us: u64) -> f64 {
-        let is_steady = self.pauses.longest_us() * STEADY_PARTS <= fresh_us;
+        let is_steady = self.pauses.longest_us().saturating_mul(STEADY_PARTS) <= fresh_us;
         if is_steady && self.lost_share <= LOST_POOR {
             1.0
         } else {
@@ -236,12 +236,12 @@ impl LinkJudge {
             .ended_us
             .is_some_and(|ended_us| now_us.saturating_sub(ended_us) <= RELAPSE_US);
         self.healed_after_us = match is_relapse {
-            true => (2 * self.healed_after_us).min(HEALED_MAX_US),
+            true => self.healed_after_us.saturating_mul(2).min(HEALED_MAX_US),
             false => HEALED_US,
         };
         self.standing = Some(fault);
         match &mut self.episode {
-            Some(episode) if episode.fault == fault => episode.times += 1,
+            Some(episode) if episode.fault == fault => episode.times = episode.times.saturating_add(1),
             _ => self.begin_episode(now_us, fault),
         }
     }

@@ -12,6 +12,10 @@ mod dead_man;
 mod description;
 mod event;
 mod latches;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod link_judge;
 mod make;
 mod reflex;
@@ -19,6 +23,10 @@ mod report;
 mod shape;
 mod supervisor;
 mod wheel_watch;
+#[cfg_attr(
+    not(test),
+    warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
+)]
 mod wrapping_total;
 
 pub use command::{

@@ -11,7 +11,7 @@ impl WrappingTotal {
     /// Takes a total and gives the sum since the first one.
     pub(crate) fn take(&mut self, total: i32) -> i64 {
         if let Some(last) = self.last {
-            self.sum += i64::from(total.wrapping_sub(last));
+            self.sum = self.sum.saturating_add(i64::from(total.wrapping_sub(last)));
         }
         self.last = Some(total);
         self.sum

@@ -5,7 +5,7 @@ use rvac_api::{Evidence, RunAsker, RunJob, RunRecord, RunResult};
 
 use super::ending::Ending;
 use super::open_run::OpenRun;
-use crate::schedule::CLOCK_IS_SET_FROM_S;
+use crate::schedule::{CLOCK_IS_SET_FROM_S, CLOCK_WAS_SET_S};
 
 /// A run whose job is gone is over after this time: a robot that slips off its dock takes the job up again.
 const OVER_US: u64 = 5_000_000;
@@ -67,15 +67,23 @@ impl RunFollower {
         }
     }
 
-    /// The clock on the wall shows this.
-    pub(crate) fn set_clock(&mut self, now_us: u64, utc_s: i64) {
+    /// The clock on the wall shows this; gives the seconds by which somebody has set it since the last time, if that is worth a word.
+    pub(crate) fn set_clock(&mut self, now_us: u64, utc_s: i64) -> Option<i64> {
         if utc_s < CLOCK_IS_SET_FROM_S {
-            return;
+            return None;
         }
+        let expected_s = self.utc_s(now_us);
         self.wall = Some((now_us, utc_s));
+        let by_s = expected_s
+            .map(|expected_s| utc_s.saturating_sub(expected_s))
+            .filter(|by_s| by_s.unsigned_abs() >= CLOCK_WAS_SET_S);
         if let Some(open) = &mut self.open {
+            if let Some(by_s) = by_s {
+                open.set_clock_by(by_s);
+            }
             open.learn_clock(now_us, utc_s);
         }
+        by_s
     }
 
     /// Somebody commands, for the next step.

@@ -81,6 +81,7 @@ impl OpenRun {
             by,
             start_s,
             end_s: None,
+            clock_set_s: None,
             duration_s: 0.0,
             moving_s: 0.0,
             swept_m2: 0.0,
@@ -141,6 +142,13 @@ impl OpenRun {
     pub(super) fn learn_clock(&mut self, now_us: u64, utc_s: i64) {
         let so_far_s = self.at_s(now_us).round() as i64;
         self.record.run.start_s.get_or_insert(utc_s - so_far_s);
+    }
+
+    /// The clock on the wall was set by so much: the beginning is told by the clock as it is now.
+    pub(super) fn set_clock_by(&mut self, seconds: i64) {
+        let run = &mut self.record.run;
+        run.start_s = run.start_s.map(|start_s| start_s + seconds);
+        run.clock_set_s = Some(run.clock_set_s.unwrap_or_default() + seconds);
     }
 
     pub(super) fn add_recording(&mut self, name: &str) {

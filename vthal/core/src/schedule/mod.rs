@@ -36,3 +36,6 @@ pub use zone_reading::ZoneReading;
 /// Before 2024 no clock of a robot is right: a board without a battery for its clock begins in 1970, or when its system was
 /// made.
 pub const CLOCK_IS_SET_FROM_S: i64 = 1_704_067_200;
+
+/// A clock that differs by so much from what it should show was set by somebody, seconds; less is the clock itself.
+pub const CLOCK_WAS_SET_S: u64 = 60;

@@ -108,6 +108,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("zone-changed", "Roboti arvuti ajavöönd muutus.", "Vaata ajakavad üle: nende kellaajad on uues vööndis, kui neil ei ole oma ajavööndit."),
     entry("zone-unknown", "Roboti arvuti ei ütle, mis ajavööndis ta on.", "Määra see (timedatectl set-timezone) või vali ajavöönd ajakavade juures."),
     entry("zone-variable-unknown", "Roboti tarkvara keskkonnamuutuja TZ ei nimeta ühtegi ajavööndit.", "Paranda see nimi või eemalda see: siis kehtib roboti arvuti ajavöönd."),
+    entry("clock-set", "Roboti arvuti kell pandi teisele ajale.", "Kui kell on nüüd õige, pole vaja midagi teha: vahepeale jäänud ajakavade kohta otsustavad nende reeglid."),
     entry("busy", "Korraga küsiti liiga palju.", "Proovi uuesti."),
     entry("unknown-component", "Sellist osa robotil ei ole.", "Need loetleb vastus päringule health."),
     entry("not-renewed", "Keegi ei ole öelnud, et see osa vahetati või puhastati.", "Midagi ei ole tagasi võtta."),

@@ -36,6 +36,14 @@ fn row(words: &Words, run: &Run) -> RunRow {
         let (start, end) = (percent_text(words, start), percent_text(words, end));
         figures.push(words.history.battery_from_to.fill([&start, &end]));
     }
+    if let Some(by_s) = run.clock_set_s {
+        let set = if by_s < 0 {
+            words.history.clock_set_back
+        } else {
+            words.history.clock_set_forward
+        };
+        figures.push(set.fill([&clock_text(by_s.unsigned_abs() as f64)]));
+    }
     RunRow {
         number: run.number,
         start_s: run.start_s,
@@ -202,6 +210,7 @@ mod tests {
                 by: rvac_api::RunAsker::Button,
                 start_s: None,
                 end_s: None,
+                clock_set_s: None,
                 duration_s: 3905.0,
                 moving_s: 1800.0,
                 swept_m2: 12.34,
@@ -259,6 +268,14 @@ mod tests {
         assert_eq!(
             stop_rows(estonian, &record)[0].words,
             "Pausil: keegi palus seda. Andis panel. Ajal 1:01, kestis 0:12."
+        );
+        let mut set_back = record.run.clone();
+        set_back.clock_set_s = Some(-3_600);
+        let row = &run_rows(ENGLISH, &[set_back])[0];
+        assert!(
+            row.figures.ends_with(", the clock was set back by 1:00:00"),
+            "{}",
+            row.figures
         );
         let mut pressed = record;
         pressed.stops[0].by = Some("the button on the robot".to_owned());

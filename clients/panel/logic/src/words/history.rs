@@ -60,6 +60,8 @@ screen! {
         main_brush: "Main brush", "Põhihari";
         bad_packets: "Bad packets", "Vigased paketid";
         battery_from_to[2]: "battery {0} to {1}", "aku {0} kuni {1}";
+        clock_set_back[1]: "the clock was set back by {0}", "kell pandi vahepeal {0} võrra tagasi";
+        clock_set_forward[1]: "the clock was set forward by {0}", "kell pandi vahepeal {0} võrra edasi";
         from_to[2]: "{0} to {1}", "{0} kuni {1}";
         spot: "Spot", "Üks koht";
         to_dock: "To the dock", "Dokki";

@@ -52,7 +52,7 @@ impl Delivery {
             .commands
             .iter_mut()
             .find(|entry| entry.sends < SENDS_MAX && now.since(entry.sent) >= REPEAT_MS)?;
-        due.sends += 1;
+        due.sends = due.sends.saturating_add(1);
         due.sent = now;
         Some(due.command)
     }

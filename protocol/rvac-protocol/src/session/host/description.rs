@@ -57,7 +57,7 @@ impl Gathering {
             GatheringProgress::Asking {
                 row,
                 asked: Some(now),
-                asks: asks + 1,
+                asks: asks.saturating_add(1),
             }
         };
         Some(row)
@@ -80,7 +80,7 @@ impl Gathering {
         }
         if row.row.saturating_add(1) < row.rows {
             self.progress = GatheringProgress::Asking {
-                row: row.row + 1,
+                row: row.row.saturating_add(1),
                 asked: None,
                 asks: 0,
             };

@@ -41,7 +41,7 @@ impl EventOrder {
         }
         let since = *self.gap_since.get_or_insert(now);
         // The robot's queue never spans more numbers, so older events are no longer in it.
-        let beyond_queue = (ahead + 1).saturating_sub(EVENTS_WAITING as u16);
+        let beyond_queue = ahead.saturating_add(1).saturating_sub(EVENTS_WAITING as u16);
         let lost = if now.since(since) >= GAP_MS {
             ahead
         } else {

@@ -168,7 +168,7 @@ impl HostCore {
             _ => write_command_with_crc(command, self.session, buffer),
         }?;
         // Stuffing and separator do not count towards the limit, so this may refuse slightly too early, never too late.
-        if buffer.length() - start > self.packet_max + 1 {
+        if buffer.length().saturating_sub(start) > self.packet_max.saturating_add(1) {
             return Err(EncodeError::TooLong);
         }
         self.sent = Some(self.now);

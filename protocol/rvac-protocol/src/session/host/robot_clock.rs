@@ -51,7 +51,7 @@ struct Offsets {
 
 impl Offsets {
     fn take(&mut self, heard: Heard) {
-        self.states += 1;
+        self.states = self.states.saturating_add(1);
         if self.states > SLICE_STATES {
             *self = Self {
                 now: None,
@@ -155,7 +155,11 @@ impl RobotClock {
             let step_ms = heard.tick.since(other.newest.tick);
             step_ms <= heard.at.since(other.newest.at).saturating_add(LEAD_MAX_MS)
         };
-        let states = self.other.filter(follows).map_or(0, |other| other.states) + 1;
+        let states = self
+            .other
+            .filter(follows)
+            .map_or(0, |other| other.states)
+            .saturating_add(1);
         self.other = Some(OtherTime {
             newest: heard,
             states,
