@@ -210,10 +210,8 @@ impl FloorFolder {
 
     /// The number that a new floor gets: higher than that of any floor that there was, also of one whose place was needed.
     fn next_number(&self, entries: &[FloorEntry]) -> u16 {
-        let written = kept_file::versions(&self.path.join(LIST))
-            .into_iter()
-            .find_map(|path| read(&path).ok())
-            .map_or(0, |list| list.next);
+        let list = kept_file::newest(&self.path.join(LIST), "the list of floors", read);
+        let written = list.value.map_or(0, |list: List| list.next);
         let listed = entries.iter().map(|entry| entry.number);
         let highest = listed.chain(self.folder_numbers()).max().unwrap_or(1);
         written.max(highest.saturating_add(1))
