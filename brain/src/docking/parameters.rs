@@ -250,6 +250,8 @@ pub(super) struct TravelParameters {
     /// The same on the way back to where the robot has been, metres. It fits through there, and the map of that place
     /// was drawn with a pose that has drifted since.
     pub(super) clearances_back_m: [f64; 5],
+    /// Nearer to the dock than this the robot searches for its beams instead of opening unknown floor, metres.
+    pub(super) by_beams_m: f64,
     /// Farther from the robot than this no path over opened floor begins, metres.
     pub(super) set_out_max_m: f64,
     /// Distances from the dock at which the approach by beams begins, metres: the best one first.
@@ -279,6 +281,7 @@ pub(super) struct TravelParameters {
 pub(super) const TRAVEL: TravelParameters = TravelParameters {
     clearances_m: [0.05, 0.01, -0.015],
     clearances_back_m: [0.05, 0.01, -0.015, -0.05, -0.09],
+    by_beams_m: 3.0,
     set_out_max_m: 0.4,
     front_m: [1.1, 1.3, 0.9, 0.75, 0.6, 0.5],
     beside_m: [0.0, 0.12, -0.12, 0.25, -0.25],

@@ -52,7 +52,7 @@ mod tests {
     use super::super::Mode;
     use super::{Behavior, Job, Reason};
     use crate::behavior::{BehaviorState, JobFigures, JobKind};
-    use crate::mapping::{BeamMemory, Cell, CellKnowledge, Map, Raster, StoredMap};
+    use crate::mapping::{BeamMemory, Cell, CellKnowledge, Map, Raster, StoredMap, SweptRun};
     use crate::model::action::Motion;
     use crate::model::advance::Advance;
     use crate::model::command::StrategyName;
@@ -129,6 +129,11 @@ mod tests {
             let floor = Raster::filled(Cell { x: 0, y: 0 }, 80, 80, CellKnowledge::Free);
             let mut map = Map::new(config.body, config.sensors);
             map.load(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)));
+            let swept_rows = (0..(80.0 * task.share) as i32).map(|y| SweptRun {
+                start: Cell { x: 0, y },
+                length: 80,
+            });
+            map.restore(&swept_rows.collect::<Vec<_>>(), &[], &[]);
             let mut behavior = Behavior::new(config);
             behavior.mode = Mode::Working;
             behavior.job = Some(Job {
