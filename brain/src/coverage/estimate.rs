@@ -65,13 +65,7 @@ pub(crate) fn estimate(
     if is_sure {
         admit_reach(order, map, start.position(), config.body.radius_m)?;
     }
-    let settings = PlanSettings {
-        swath_m: config.body.swath_m,
-        sigma_m: MARGINS.sigma_min_m,
-        cruise_m_per_s: config.speeds.cruise_m_per_s,
-        turn_rad_per_s: config.speeds.turn_max_rad_per_s,
-        takes_along: true,
-    };
+    let settings = plan_settings(config);
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + MARGINS.clearance_m;
     let inflation = Inflation {
@@ -119,6 +113,17 @@ pub(crate) fn estimate(
         share: sum.swept_m2 / sum.floor_m2,
         share_low: sum.swept_low_m2 / sum.floor_m2,
     })
+}
+
+/// What the lanes are planned by, for a robot that keeps its place as well as one can.
+fn plan_settings(config: &BrainConfig) -> PlanSettings {
+    PlanSettings {
+        swath_m: config.body.swath_m,
+        sigma_m: MARGINS.sigma_min_m,
+        cruise_m_per_s: config.speeds.cruise_m_per_s,
+        turn_rad_per_s: config.speeds.turn_max_rad_per_s,
+        takes_along: true,
+    }
 }
 
 /// The total over the parts of an order.
