@@ -569,7 +569,7 @@ fn end_with(standing: Rectangle) -> Reason {
     };
     run(&mut stage.world, &mut stage.brain, None, 1.0);
     let part = HomePart::Zone(zone((4.5, 0.5), (5.8, 3.5)));
-    stage.clean(&CleaningOrder::new(vec![part], 1).unwrap());
+    stage.clean(&CleaningOrder::new(vec![part], 1).expect("a lawful zone"));
     stage.brain.status().reason
 }
 
