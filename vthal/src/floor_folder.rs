@@ -124,10 +124,10 @@ impl FloorFolder {
                 self.path.display()
             )
         });
-        let (entries, mut complaints) = self.entries();
+        let (list, mut complaints) = self.list();
         complaints.extend(unsettled);
         let mut floors = Vec::new();
-        for entry in entries {
+        for entry in list.floors {
             let (home, wrong) = self.maps(entry.number).newest();
             complaints.extend(wrong);
             floors.push(kept(&entry, home));
@@ -140,14 +140,14 @@ impl FloorFolder {
     /// # Errors
     /// See [`FloorError`]; then nothing is changed.
     pub(crate) fn change(&self, task: &FloorTask) -> Result<Option<u16>, FloorError> {
-        let mut entries = self.entries().0;
-        let mut next = self.next_number(&entries);
+        let mut list = self.list().0;
+        let entries = &mut list.floors;
         let mut made = None;
         match task {
             FloorTask::New(name) => {
-                let dropped = make_room(&mut entries)?;
-                let number = next;
-                next = number.checked_add(1).ok_or(FloorError::Full)?;
+                let dropped = make_room(entries)?;
+                let number = list.next;
+                list.next = number.checked_add(1).ok_or(FloorError::Full)?;
                 let entry = FloorEntry {
                     name: name.as_ref().map(|name| name.as_str().to_owned()),
                     ..FloorEntry::new(number)
@@ -159,27 +159,22 @@ impl FloorFolder {
                 made = Some(number);
             }
             FloorTask::Name(number, name) => {
-                entry(&mut entries, *number)?.name = name.as_ref().map(|name| name.as_str().to_owned());
+                entry(entries, *number)?.name = name.as_ref().map(|name| name.as_str().to_owned());
             }
             FloorTask::Remove(number) => {
-                let mut removed = entry(&mut entries, *number)?.clone();
+                let mut removed = entry(entries, *number)?.clone();
                 removed.removed = true;
                 entries.retain(|entry| entry.number != *number);
                 entries.push(removed);
             }
-            FloorTask::Restore(number) => entry(&mut entries, *number)?.removed = false,
+            FloorTask::Restore(number) => entry(entries, *number)?.removed = false,
         }
-        self.write(entries, next)?;
+        self.write(&list)?;
         Ok(made)
     }
 
-    fn write(&self, floors: Vec<FloorEntry>, next: u16) -> Result<(), FloorError> {
-        let list = List {
-            version: 1,
-            next,
-            floors,
-        };
-        let bytes = serde_json::to_vec_pretty(&list).map_err(io::Error::from)?;
+    fn write(&self, list: &List) -> Result<(), FloorError> {
+        let bytes = serde_json::to_vec_pretty(list).map_err(io::Error::from)?;
         fs::create_dir_all(&self.path)?;
         kept_file::replace(&self.path.join(LIST), &bytes)?;
         Ok(())
@@ -195,35 +190,32 @@ impl FloorFolder {
     }
 
     /// The list, and what is wrong with it. A floor that has a folder and no entry is on it nevertheless, so that none is
-    /// lost with the list.
-    fn entries(&self) -> (Vec<FloorEntry>, Vec<String>) {
-        let (mut entries, complaints) = self.listed();
+    /// lost with the list. The number of the next new floor is higher than that of any floor that there was, also of one whose place
+    /// was needed.
+    fn list(&self) -> (List, Vec<String>) {
+        let (mut list, complaints) = self.written_list();
         let mut found: Vec<u16> = self.folders();
         found.sort_unstable();
         for number in found {
-            if entries.iter().all(|entry| entry.number != number) {
-                entries.push(FloorEntry::new(number));
+            if list.floors.iter().all(|entry| entry.number != number) {
+                list.floors.push(FloorEntry::new(number));
             }
         }
-        (entries, complaints)
-    }
-
-    /// The number that a new floor gets: higher than that of any floor that there was, also of one whose place was needed.
-    fn next_number(&self, entries: &[FloorEntry]) -> u16 {
-        let list = kept_file::newest(&self.path.join(LIST), "the list of floors", read);
-        let written = list.value.map_or(0, |list: List| list.next);
-        let listed = entries.iter().map(|entry| entry.number);
+        let listed = list.floors.iter().map(|entry| entry.number);
         let highest = listed.chain(self.folder_numbers()).max().unwrap_or(1);
-        written.max(highest.saturating_add(1))
+        list.next = list.next.max(highest.saturating_add(1));
+        (list, complaints)
     }
 
-    fn listed(&self) -> (Vec<FloorEntry>, Vec<String>) {
-        let list = kept_file::newest(&self.path.join(LIST), "the list of floors", read);
-        let floors = list.value.map(|list: List| list.floors);
-        (
-            floors.unwrap_or_else(|| vec![FloorEntry::new(1)]),
-            list.complaints,
-        )
+    /// The list as it was written, and what is wrong with it.
+    fn written_list(&self) -> (List, Vec<String>) {
+        let kept = kept_file::newest(&self.path.join(LIST), "the list of floors", read);
+        let list = kept.value.unwrap_or_else(|| List {
+            version: 1,
+            next: 0,
+            floors: vec![FloorEntry::new(1)],
+        });
+        (list, kept.complaints)
     }
 
     /// Numbers of the floors that have versions.

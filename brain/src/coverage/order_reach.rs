@@ -96,10 +96,7 @@ impl Barrier {
         }
         let shut = map.knowledge_avoiding(order.avoid());
         let doors = map.rooms().doors();
-        let is_in_door = |cell: Cell| {
-            let mut near = doors.iter();
-            near.any(|door| door.at.distance_m(cell.middle()) < 0.5 * door.width_m + REACH.door_m)
-        };
+        let is_in_door = |cell: Cell| doors.iter().any(|door| stands_in(door, cell.middle()));
         if is_enough(&with_past_floor(map, &shut, is_in_door)) {
             Some(Self::Door)
         } else if is_enough(&with_past_floor(map, &shut, |_| true)) {
@@ -150,12 +147,17 @@ impl Barrier {
     }
 }
 
+/// Whether what is at this place stands in a door.
+fn stands_in(door: &Door, at: Point2) -> bool {
+    door.at.distance_m(at) < 0.5 * door.width_m + REACH.door_m
+}
+
 /// The knowledge as if something filled a door.
 fn with_door_shut(knowledge: &Raster<CellKnowledge>, door: &Door) -> Raster<CellKnowledge> {
     let mut shut = knowledge.clone();
     for index in 0..shut.values().len() {
         let at = shut.cell(index).middle();
-        if at.distance_m(door.at) < 0.5 * door.width_m + REACH.door_m
+        if stands_in(door, at)
             && let Some(kind) = shut.values_mut().get_mut(index)
         {
             *kind = CellKnowledge::Occupied;
@@ -171,16 +173,7 @@ fn with_past_floor(
     is_asked: impl Fn(Cell) -> bool,
 ) -> Raster<CellKnowledge> {
     let mut open = knowledge.clone();
-    for index in 0..open.values().len() {
-        let cell = open.cell(index);
-        if let Some(kind) = open.values_mut().get_mut(index)
-            && matches!(*kind, CellKnowledge::Occupied | CellKnowledge::Unknown)
-            && map.was_floor(cell)
-            && is_asked(cell)
-        {
-            *kind = CellKnowledge::Free;
-        }
-    }
+    map.open_past_floor(&mut open, |open, index| is_asked(open.cell(index)));
     open
 }
 

@@ -90,14 +90,16 @@ impl Perimeter {
     /// Whether this place lies beyond the track so far: not within its windings, and at a distance from it.
     pub(crate) fn leaves_out(&self, place: Point2) -> bool {
         let points = || self.track.iter().map(|point| point.pose.position());
-        let is_beside = points().any(|point| point.distance_m(place) < PERIMETER.beyond_m);
+        if points().any(|point| point.distance_m(place) < PERIMETER.beyond_m) {
+            return false;
+        }
         let bearings = points().map(|point| libm::atan2(point.y_m - place.y_m, point.x_m - place.x_m));
         let next = bearings.clone().cycle().skip(1);
         let turned_rad: f64 = bearings
             .zip(next)
             .map(|(one_rad, next_rad)| normalize_rad(next_rad - one_rad))
             .sum();
-        !is_beside && turned_rad.abs() < PI
+        turned_rad.abs() < PI
     }
 
     /// Whether it is evading a contact.

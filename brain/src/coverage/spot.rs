@@ -113,6 +113,7 @@ impl Spot {
         });
         TaskStatus::Go(Motion::Halt)
     }
+
     /// Turns where it stands, and spirals on to the side to which it has turned.
     fn turn_off(&mut self, turn_rad: f64) -> TaskStatus {
         self.side = if turn_rad > 0.0 {

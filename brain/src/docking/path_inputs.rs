@@ -35,33 +35,14 @@ impl PathInputs {
         }
     }
 
-    /// Cells that were floor become free, whether they are occupied now or in dispute. Walls were none, and cliffs and no-go zones stay.
+    /// What was floor counts as floor. Nearly all that is unknown lies outside of the home, so only what is beside floor is asked of that.
     pub(super) fn open_past_floor(&mut self, situation: &Situation<'_>) {
-        for index in 0..self.knowledge.values().len() {
-            let is_asked = match self.knowledge.values().get(index) {
-                Some(CellKnowledge::Occupied) => true,
-                // Nearly all that is unknown lies outside of the home.
-                Some(CellKnowledge::Unknown) => self.is_beside_floor(index),
-                _ => false,
-            };
-            if is_asked
-                && situation.map.was_floor(self.knowledge.cell(index))
-                && let Some(kind) = self.knowledge.values_mut().get_mut(index)
-            {
-                *kind = CellKnowledge::Free;
-            }
-        }
-    }
-
-    /// Whether the cell before or after this one in the row, or in the column, is free.
-    fn is_beside_floor(&self, index: usize) -> bool {
-        let values = self.knowledge.values();
-        let is_free =
-            |index: Option<usize>| index.and_then(|index| values.get(index)) == Some(&CellKnowledge::Free);
-        let width = self.knowledge.width();
-        [1, width]
-            .into_iter()
-            .any(|step| is_free(index.checked_sub(step)) || is_free(index.checked_add(step)))
+        situation
+            .map
+            .open_past_floor(&mut self.knowledge, |knowledge, index| {
+                knowledge.values().get(index) == Some(&CellKnowledge::Occupied)
+                    || is_beside_floor(knowledge, index)
+            });
     }
 
     /// Unknown cells between the dock and the places before it become free; returns whether there were any. A robot that turned
@@ -100,40 +81,50 @@ impl PathInputs {
     /// that.
     pub(super) async fn first_path(mut self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
-        for gap_m in clearances_m {
-            let path = self.path(*gap_m, budget).await;
-            if path.is_some() {
-                return path;
-            }
+        let path = self.first_that(clearances_m, |_| true, budget).await;
+        if path.is_some() || !self.open_before_dock() {
+            return path;
         }
-        if !self.open_before_dock() {
-            return None;
-        }
+        // Opened floor that nothing leads to would be the nearest floor to a robot that stands on none.
+        let start = self.start.position();
+        let sets_out_here = |path: &[PathSegment]| {
+            path.first()
+                .is_none_or(|first| first.start.position().distance_m(start) < TRAVEL.set_out_max_m)
+        };
+        self.first_that(clearances_m, sets_out_here, budget).await
+    }
+
+    /// The path with the first of these gaps between the body and what is known that allows one that is good enough.
+    async fn first_that(
+        &self,
+        clearances_m: &'static [f64],
+        is_good: impl Fn(&[PathSegment]) -> bool,
+        budget: &mut StepBudget,
+    ) -> Option<Vec<PathSegment>> {
         for gap_m in clearances_m {
-            let path = self.path(*gap_m, budget).await;
-            // Opened floor that nothing leads to would be the nearest floor to a robot that stands on none.
-            if let Some(path) = path.filter(|path| self.sets_out_here(path)) {
+            let inflation = Inflation {
+                radius_m: self.body_m + gap_m,
+                blocked: &self.blocked,
+            };
+            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, inflation, budget).await;
+            let path = plan_path(&reachable_cells, self.start, &self.goals, budget).await;
+            if let Some(path) = path.filter(|path| is_good(path)) {
                 return Some(path);
             }
         }
         None
     }
+}
 
-    fn sets_out_here(&self, path: &[PathSegment]) -> bool {
-        path.first().is_none_or(|first| {
-            first.start.position().distance_m(self.start.position()) < TRAVEL.set_out_max_m
-        })
-    }
-
-    /// The path with this gap between the body and what is known.
-    async fn path(&self, gap_m: f64, budget: &mut StepBudget) -> Option<Vec<PathSegment>> {
-        let inflation = Inflation {
-            radius_m: self.body_m + gap_m,
-            blocked: &self.blocked,
-        };
-        let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, inflation, budget).await;
-        plan_path(&reachable_cells, self.start, &self.goals, budget).await
-    }
+/// Whether the cell before or after this one in the row, or in the column, is free.
+fn is_beside_floor(knowledge: &Raster<CellKnowledge>, index: usize) -> bool {
+    let values = knowledge.values();
+    let is_free =
+        |index: Option<usize>| index.and_then(|index| values.get(index)) == Some(&CellKnowledge::Free);
+    let width = knowledge.width();
+    [1, width]
+        .into_iter()
+        .any(|step| is_free(index.checked_sub(step)) || is_free(index.checked_add(step)))
 }
 
 /// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.

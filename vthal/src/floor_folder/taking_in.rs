@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use brain::RoomName;
 
-use super::{FLOORS_MAX, FloorEntry, FloorError, FloorFolder};
+use super::{FLOORS_MAX, FloorEntry, FloorError, FloorFolder, List};
 use crate::floor_archive::ArchivedFloor;
 use crate::map_folder::MapFolder;
 
@@ -23,7 +23,7 @@ impl FloorFolder {
     /// The floors that are not removed and have a map, or the one of them with this number, with the newest maps that are
     /// whole.
     pub(crate) fn archived(&self, only: Option<u16>) -> Vec<ArchivedFloor> {
-        let mut entries = self.entries().0;
+        let mut entries = self.list().0.floors;
         entries.retain(|entry| !entry.removed && only.is_none_or(|number| number == entry.number));
         entries.sort_by_key(|entry| entry.number);
         let archived = |entry: FloorEntry| {
@@ -42,41 +42,23 @@ impl FloorFolder {
     /// See [`FloorError`]; then nothing is changed.
     pub(crate) fn take_in(&self, floors: &[ArchivedFloor]) -> Result<Vec<u16>, FloorError> {
         self.settle()?;
-        let kept = self.entries().0;
-        let free = FLOORS_MAX.saturating_sub(kept.len());
+        let kept = self.list().0;
+        let free = FLOORS_MAX.saturating_sub(kept.floors.len());
         if floors.len() > free {
             let wanted = floors.len();
             return Err(FloorError::NoPlaces { wanted, free });
         }
-        let (entries, next) = self.with_new(kept, floors)?;
-        let fresh = entries.get(entries.len() - floors.len()..).unwrap_or_default();
+        let list = with_new(kept, floors)?;
+        let all = &list.floors;
+        let fresh = all.get(all.len() - floors.len()..).unwrap_or_default();
         let numbers = fresh.iter().map(|entry| entry.number).collect();
         self.stage(fresh, floors)?;
-        self.write(entries, next)?;
+        self.write(&list)?;
         if let Err(error) = self.settle() {
             // The list has decided: the next start tries again.
             tracing::error!("cannot name the folders of new floors: {error}");
         }
         Ok(numbers)
-    }
-
-    /// The list with entries for these floors at its end, and the number of the next new one.
-    fn with_new(
-        &self,
-        mut entries: Vec<FloorEntry>,
-        floors: &[ArchivedFloor],
-    ) -> Result<(Vec<FloorEntry>, u16), FloorError> {
-        let mut next = self.next_number(&entries);
-        for floor in floors {
-            let number = next;
-            next = number.checked_add(1).ok_or(FloorError::Full)?;
-            let name = floor.name.as_ref().map(|name| free_name(name, &entries));
-            entries.push(FloorEntry {
-                name,
-                ..FloorEntry::new(number)
-            });
-        }
-        Ok((entries, next))
     }
 
     /// Writes the maps into folders that nothing reads.
@@ -93,7 +75,7 @@ impl FloorFolder {
         if staged.is_empty() {
             return Ok(());
         }
-        let listed = self.listed().0;
+        let listed = self.written_list().0.floors;
         for number in staged {
             let (staged, maps) = (self.staged(number), self.maps(number));
             let is_listed = listed.iter().any(|entry| entry.number == number);
@@ -130,6 +112,20 @@ impl FloorFolder {
     fn flush(&self) -> io::Result<()> {
         File::open(&self.path)?.sync_all()
     }
+}
+
+/// The list with entries for these floors at its end.
+fn with_new(mut list: List, floors: &[ArchivedFloor]) -> Result<List, FloorError> {
+    for floor in floors {
+        let number = list.next;
+        list.next = number.checked_add(1).ok_or(FloorError::Full)?;
+        let name = floor.name.as_ref().map(|name| free_name(name, &list.floors));
+        list.floors.push(FloorEntry {
+            name,
+            ..FloorEntry::new(number)
+        });
+    }
+    Ok(list)
 }
 
 /// The name, or the first free one like it.

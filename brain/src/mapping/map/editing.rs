@@ -127,19 +127,6 @@ impl Map {
         self.home.forbid_for_job(cells);
     }
 
-    /// The knowledge with cells to avoid in a job as no-go cells.
-    pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
-        let mut knowledge = self.knowledge().clone();
-        if let Some(window) = self.home.bounds() {
-            for cell in avoid.iter().flat_map(|no_go| cells_of(no_go.area(), window)) {
-                if let Some(kind) = knowledge.get_mut(cell) {
-                    *kind = CellKnowledge::NoGo;
-                }
-            }
-        }
-        knowledge
-    }
-
     /// Whether there is a no-go zone or virtual wall with this number.
     ///
     /// # Errors

@@ -15,13 +15,25 @@ impl Map {
         zones.map(NoGo::area).any(|area| area.contains(at))
     }
 
+    /// The knowledge with cells to avoid in a job as no-go cells.
+    pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
+        self.with_no_go(self.knowledge().clone(), avoid.iter())
+    }
+
     /// The knowledge as if these alone were forbidden.
     pub(crate) fn knowledge_forbidding<'a>(
         &self,
         forbidden: impl Iterator<Item = &'a NoGo>,
     ) -> Raster<CellKnowledge> {
         let open = self.home.knowledge_without_no_go();
-        let mut knowledge = open.unwrap_or_else(|| self.knowledge().clone());
+        self.with_no_go(open.unwrap_or_else(|| self.knowledge().clone()), forbidden)
+    }
+
+    fn with_no_go<'a>(
+        &self,
+        mut knowledge: Raster<CellKnowledge>,
+        forbidden: impl Iterator<Item = &'a NoGo>,
+    ) -> Raster<CellKnowledge> {
         let Some(window) = self.home.bounds() else {
             return knowledge;
         };

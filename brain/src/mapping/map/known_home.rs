@@ -201,10 +201,32 @@ impl Map {
     }
 
     /// Whether a cell was floor before this run, or the body was in it.
-    pub(crate) fn was_floor(&self, cell: Cell) -> bool {
+    fn was_floor(&self, cell: Cell) -> bool {
         let known = self.home.known.as_ref();
         known.is_some_and(|known| known.kept.at(cell).knowledge() == CellKnowledge::Free)
             || self.was_driven(cell)
+    }
+
+    /// Cells that were floor become free where `is_asked` of the knowledge so far and their index, whether they are occupied now or in
+    /// dispute. Walls were none, and cliffs and no-go zones stay.
+    pub(crate) fn open_past_floor(
+        &self,
+        knowledge: &mut Raster<CellKnowledge>,
+        is_asked: impl Fn(&Raster<CellKnowledge>, usize) -> bool,
+    ) {
+        for index in 0..knowledge.values().len() {
+            let is_met = matches!(
+                knowledge.values().get(index),
+                Some(CellKnowledge::Occupied | CellKnowledge::Unknown)
+            );
+            if is_met
+                && is_asked(knowledge, index)
+                && self.was_floor(knowledge.cell(index))
+                && let Some(kind) = knowledge.values_mut().get_mut(index)
+            {
+                *kind = CellKnowledge::Free;
+            }
+        }
     }
 
     /// Bytes of the home's map, including sightings.

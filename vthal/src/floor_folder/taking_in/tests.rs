@@ -6,6 +6,7 @@ use brain::{Cell, CellKnowledge, Raster, RoomName, StoredMap};
 use vthal_core::{FloorTask, KeptFloor};
 
 use super::super::{FLOORS_MAX, FloorFolder};
+use super::with_new;
 use crate::floor_archive::ArchivedFloor;
 
 struct Scratch(FloorFolder);
@@ -118,10 +119,10 @@ fn more_floors_than_places_are_refused_and_a_removed_one_keeps_its_place() {
 fn a_crash_before_the_list_leaves_everything_as_it_was() {
     let scratch = Scratch::home("before");
     let before = scratch.floors();
-    let entries = scratch.0.entries().0;
+    let list = scratch.0.list().0;
     let floors = [archived("Cellar", 5), archived("Loft", 6)];
-    let (entries, _) = scratch.0.with_new(entries, &floors).expect("has places");
-    scratch.0.stage(&entries[2..], &floors).expect("writes");
+    let list = with_new(list, &floors).expect("has places");
+    scratch.0.stage(&list.floors[2..], &floors).expect("writes");
     assert!(scratch.0.staged(3).exists());
     assert_eq!(scratch.floors(), before);
     assert!(!scratch.0.staged(3).exists() && !scratch.0.staged(4).exists());
@@ -130,11 +131,11 @@ fn a_crash_before_the_list_leaves_everything_as_it_was() {
 #[test]
 fn a_crash_after_the_list_is_finished_at_the_next_start() {
     let scratch = Scratch::home("after");
-    let entries = scratch.0.entries().0;
+    let list = scratch.0.list().0;
     let floors = [archived("Cellar", 5), archived("Loft", 6)];
-    let (entries, next) = scratch.0.with_new(entries, &floors).expect("has places");
-    scratch.0.stage(&entries[2..], &floors).expect("writes");
-    scratch.0.write(entries, next).expect("writes");
+    let list = with_new(list, &floors).expect("has places");
+    scratch.0.stage(&list.floors[2..], &floors).expect("writes");
+    scratch.0.write(&list).expect("writes");
     // One folder has its name already.
     fs::rename(scratch.0.staged(3), scratch.0.maps(3).path()).expect("renames");
     let homes: Vec<_> = scratch.floors().into_iter().map(|floor| floor.home).collect();
