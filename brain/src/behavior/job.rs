@@ -37,6 +37,8 @@ pub(super) struct Job {
     pub(super) has_heard_beacons: bool,
     /// When to rest next so that the gyro's bias can be measured.
     pub(super) gyro_rest: GyroRest,
+    /// How far the robot moves before it rests for the gyro's bias, metres: it backs off from what it was put down against.
+    pub(super) moves_before_rest_m: f64,
     /// Brushes may run: the bumper was released after the job last started (S29).
     pub(super) brushes: bool,
     /// Returning to where it was postponed: brushes stay off over floor that is swept already.
@@ -93,6 +95,7 @@ impl Job {
             without_heading_us: None,
             has_heard_beacons: false,
             gyro_rest: GyroRest::default(),
+            moves_before_rest_m: 0.0,
             brushes: false,
             returns: false,
             dock_retry: DockRetry::default(),

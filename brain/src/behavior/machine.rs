@@ -22,7 +22,7 @@ use crate::model::geometry::Point2;
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::CHASSIS;
-use crate::navigation::{Situation, TaskContext};
+use crate::navigation::{Situation, TaskContext, free_side, round_wheel_rad_per_s};
 use manual::ManualDrive;
 
 /// What the state machine is in. [`BehaviorState`] is derived from it.
@@ -347,24 +347,49 @@ impl Behavior {
         } else {
             speed_m_per_s.max(0.0)
         };
-        let at_cliff = facts.at_cliff || facts.cliff_sensor;
-        let held = facts.touching || at_cliff;
-        if share.is_nan() || share <= 0.0 || (held && speed_m_per_s >= 0.0) {
+        if share.is_nan() || share <= 0.0 {
             return Motion::Halt;
         }
-        let slowest_m_per_s = if at_cliff {
-            -CHASSIS.back_at_cliff_m_per_s
-        } else {
-            f64::NEG_INFINITY
-        };
+        let at_cliff = facts.at_cliff || facts.cliff_sensor;
+        if facts.touching || at_cliff {
+            let slowest_m_per_s = if at_cliff {
+                -CHASSIS.back_at_cliff_m_per_s
+            } else {
+                f64::NEG_INFINITY
+            };
+            return away_from_hazard(
+                (share * speed_m_per_s).max(slowest_m_per_s),
+                turn_rad_per_s,
+                situation,
+            );
+        }
         Motion::Drive {
-            speed_m_per_s: (share * speed_m_per_s).max(slowest_m_per_s),
-            turn_rad_per_s: if held { 0.0 } else { share * turn_rad_per_s },
+            speed_m_per_s: share * speed_m_per_s,
+            turn_rad_per_s: share * turn_rad_per_s,
         }
     }
 
     /// A person who drives sees behind the robot; the brain does not.
     fn may_back(&self, situation: &Situation<'_>) -> bool {
         matches!(self.mode, Mode::Manual(_)) || situation.reverse_budget_m > 0.0
+    }
+}
+
+/// The part of a motion that leads away from what is touched (S6) or from an edge (S8): straight back, and the turns of
+/// [`crate::navigation::TurnFree`].
+fn away_from_hazard(speed_m_per_s: f64, turn_rad_per_s: f64, situation: &Situation<'_>) -> Motion {
+    let is_away = free_side(situation).is_some_and(|side| side.sign() * turn_rad_per_s > 0.0);
+    let fastest_rad_per_s = match (is_away, situation.at_cliff) {
+        (false, _) => 0.0,
+        (true, true) => round_wheel_rad_per_s(speed_m_per_s, situation),
+        (true, false) if speed_m_per_s == 0.0 => CHASSIS.turn_min_rad_per_s,
+        (true, false) => 0.0,
+    };
+    if speed_m_per_s > 0.0 || (speed_m_per_s == 0.0 && fastest_rad_per_s == 0.0) {
+        return Motion::Halt;
+    }
+    Motion::Drive {
+        speed_m_per_s,
+        turn_rad_per_s: turn_rad_per_s.clamp(-fastest_rad_per_s, fastest_rad_per_s),
     }
 }

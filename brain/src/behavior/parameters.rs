@@ -110,12 +110,15 @@ pub(super) struct GyroSettlingParameters {
     pub(super) mapping_sigma_rad_per_s: f64,
     /// Longest wait for that, seconds.
     pub(super) wait_max_s: f64,
+    /// Distance by which a robot that was put down against something backs off before it waits, metres at most.
+    pub(super) backed_max_m: f64,
 }
 
 pub(super) const GYRO_SETTLING: GyroSettlingParameters = GyroSettlingParameters {
     tracked_sigma_rad_per_s: 6.0e-4,
     mapping_sigma_rad_per_s: 2.0e-4,
     wait_max_s: 16.0,
+    backed_max_m: 0.1,
 };
 
 /// How the robot leaves the dock.

@@ -125,6 +125,11 @@ impl Lift {
         }
     }
 
+    /// Whether somebody holds the robot up.
+    pub(super) fn is_lifted(self) -> bool {
+        self.hanging_s() >= LIFTED_S || self.floor_loss.is_lift()
+    }
+
     /// Whether the robot seems to be off the floor at this moment.
     pub(super) fn is_in_air(self) -> bool {
         self.hanging_s() > 0.0 || self.floor_loss.is_lift()

@@ -1,6 +1,7 @@
-//! Evading a hazard: back off until it is released, then turn away.
+//! Evading a hazard: back off until it is released, then turn away. What holds one side only and is not left by backing straight is left by a
+//! turn.
 
-use super::{BackOff, ManoeuvreStep, Situation, Turn};
+use super::{BackOff, ManoeuvreStep, Situation, Turn, TurnFree};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::parameters::EVASION;
@@ -18,6 +19,8 @@ pub(crate) struct Evasion {
     phase: EvasionPhase,
     cause: EvasionCause,
     turn_rad: f64,
+    /// Distance backed straight so far.
+    backed_m: f64,
     /// Distance that may still be added to the back-off.
     extra_m: f64,
     contacts_left: u32,
@@ -26,6 +29,7 @@ pub(crate) struct Evasion {
 #[derive(Clone, Copy, Debug)]
 enum EvasionPhase {
     Back(BackOff),
+    Free(TurnFree),
     Turn(Turn),
 }
 
@@ -47,6 +51,7 @@ impl Evasion {
             phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
             cause: EvasionCause::Contact,
             turn_rad,
+            backed_m: 0.0,
             extra_m: EVASION.contact_extra_max_m,
             contacts_left: EVASION.turn_contacts_max,
         }
@@ -82,8 +87,14 @@ impl Evasion {
         match self.phase {
             EvasionPhase::Back(mut back) => {
                 let step = back.step(situation);
+                self.backed_m -= situation.advance.distance_m;
                 self.phase = EvasionPhase::Back(back);
                 self.after_back(step, situation)
+            }
+            EvasionPhase::Free(mut free) => {
+                let step = free.step(situation);
+                self.phase = EvasionPhase::Free(free);
+                self.after_free(step, situation)
             }
             EvasionPhase::Turn(mut turn) => {
                 let step = turn.step(situation);
@@ -95,7 +106,11 @@ impl Evasion {
 
     fn after_back(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
         if let ManoeuvreStep::Going(motion) = step {
-            return EvasionStep::Going(motion);
+            let drives_along_edge = situation.at_cliff && self.has_backed_straight(situation);
+            return match drives_along_edge.then(|| TurnFree::of(situation)).flatten() {
+                Some(free) => self.turn_free(free),
+                None => EvasionStep::Going(motion),
+            };
         }
         if situation.at_cliff && self.cause == EvasionCause::Contact {
             *self = Self::from_cliff(EVASION.extra_m, self.turn_rad);
@@ -110,7 +125,10 @@ impl Evasion {
             return EvasionStep::Going(Motion::Halt);
         }
         if step == ManoeuvreStep::Aborted || self.extra_m <= 0.0 {
-            return EvasionStep::Held(self.held_reason());
+            return match TurnFree::of(situation) {
+                Some(free) => self.turn_free(free),
+                None => EvasionStep::Held(self.held_reason()),
+            };
         }
         self.extra_m -= EVASION.extra_m;
         let EvasionPhase::Back(back) = &mut self.phase else {
@@ -120,6 +138,27 @@ impl Evasion {
         match back.step(situation) {
             ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
             ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Going(Motion::Halt),
+        }
+    }
+
+    /// Whether backing straight has had its chance: farther, the distance is needed for the turn away from the edge.
+    fn has_backed_straight(&self, situation: &Situation<'_>) -> bool {
+        self.backed_m >= EVASION.straight_m || situation.reverse_budget_m < EVASION.straight_m
+    }
+
+    fn turn_free(&mut self, free: TurnFree) -> EvasionStep {
+        self.phase = EvasionPhase::Free(free);
+        EvasionStep::Going(Motion::Halt)
+    }
+
+    fn after_free(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
+        match step {
+            ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
+            _ if situation.is_free() => {
+                self.phase = EvasionPhase::Turn(Turn::by(self.turn_rad));
+                EvasionStep::Going(Motion::Halt)
+            }
+            _ => EvasionStep::Held(self.held_reason()),
         }
     }
 

@@ -21,6 +21,7 @@ pub(crate) mod router;
 mod situation;
 pub(crate) mod smoothing;
 mod task;
+mod turn_free;
 mod wall_follower;
 
 pub(crate) use caution::caution;
@@ -36,4 +37,5 @@ pub(crate) use path_follower::{FollowStep, PathFollower};
 pub(crate) use situation::Situation;
 pub use smoothing::PathSegment;
 pub(crate) use task::{Task, TaskContext, TaskStatus};
+pub(crate) use turn_free::{TurnFree, free_side, round_wheel_rad_per_s};
 pub(crate) use wall_follower::{WallFollower, WallStep};

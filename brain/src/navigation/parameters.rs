@@ -71,6 +71,8 @@ pub(crate) struct EvasionParameters {
     pub(crate) cliff_back_max_m: f64,
     /// Longest back-off after a contact beyond the requested distance, metres.
     pub(crate) contact_extra_max_m: f64,
+    /// Distance to back straight from an edge on one side, metres. Who still sees the edge then drives along it, and turns away from it.
+    pub(crate) straight_m: f64,
     /// Distance that is added each time the bumper is still pressed or the floor still missing, metres.
     pub(crate) extra_m: f64,
     /// Contacts during the turn until the robot counts as held.
@@ -81,8 +83,25 @@ pub(crate) const EVASION: EvasionParameters = EvasionParameters {
     cliff_back_m: 0.08,
     cliff_back_max_m: 0.14,
     contact_extra_max_m: 0.12,
+    straight_m: 0.04,
     extra_m: 0.02,
     turn_contacts_max: 3,
+};
+
+/// Turning away from one held side.
+pub(super) struct TurnFreeParameters {
+    /// Share of the turn at which the wheel beside an edge would stand: it must not go forward, whatever the controller does.
+    pub(super) wheel_share: f64,
+    /// Largest turn, radians.
+    pub(super) turn_max_rad: f64,
+    /// Longest time, seconds. The firmware takes a bumper for stuck that does not come free for ten (S7).
+    pub(super) time_max_s: f64,
+}
+
+pub(super) const TURN_FREE: TurnFreeParameters = TurnFreeParameters {
+    wheel_share: 0.9,
+    turn_max_rad: 1.0,
+    time_max_s: 4.0,
 };
 
 /// The controller that follows a path.

@@ -1,7 +1,7 @@
 //! The state machine, by scripts.
 
 use crate::script::{check, check_with, config};
-use brain::observation::Contacts;
+use brain::observation::{Cliffs, Contacts};
 use brain::{BehaviorState, BrainConfig, JobCommand, Motion};
 
 #[test]
@@ -303,6 +303,56 @@ fn a_bumper_pressed_before_the_start_is_left_or_told() {
             "{side}: {} m back",
             held.backed_m
         );
+    }
+}
+
+/// Backing straight along an edge never leaves it.
+#[test]
+fn an_edge_on_one_side_is_left_by_a_turn_with_no_wheel_going_forward() {
+    for (side, sign) in [("left", -1.0), ("right", 1.0)] {
+        let mut stage = check(&format!("up\n clean\n wait 6 => cleaning\n cliff {side}"));
+        let before = (stage.brain.pose().heading_rad, stage.backed_m);
+        let mut turned_rad = 0.0;
+        for _ in 0..50 * 4 {
+            stage.step(&[]);
+            turned_rad = (sign * (stage.brain.pose().heading_rad - before.0)).sin();
+            if turned_rad > 0.3 {
+                break;
+            }
+        }
+        assert!(turned_rad > 0.3, "{side}: {turned_rad} rad away from the edge");
+        assert!(
+            stage.backed_m - before.1 < 0.1,
+            "{side}: {} m back",
+            stage.backed_m
+        );
+        stage.observation.cliffs = Cliffs::default();
+        for _ in 0..50 * 10 {
+            stage.step(&[]);
+        }
+        assert_eq!(stage.brain.status().state, BehaviorState::Cleaning, "{side}");
+    }
+}
+
+/// A robot that may not back any farther turns away from what one bumper touches, and waits for a person where both touch.
+#[test]
+fn without_a_way_back_a_contact_on_one_side_is_left_by_a_turn() {
+    let spent = "up\n drive -0.3 0 => manual\n wait 0.35 => manual\n drive -0.3 0\n wait 0.35\n drive -0.3 0\n wait 0.35\n release";
+    check(&format!(
+        "{spent}\n press both\n clean\n wait 20 => stuck contact-held"
+    ));
+    for side in ["left", "right"] {
+        let mut stage = check(&format!("{spent}\n press {side}\n clean\n wait 3.5 => cleaning"));
+        let before_m = stage.backed_m;
+        stage.observation.contacts = Contacts::default();
+        for _ in 0..50 * 20 {
+            stage.step(&[]);
+        }
+        assert_eq!(stage.brain.status().state, BehaviorState::Cleaning, "{side}");
+        assert!(stage.backed_m <= before_m, "{side}: {} m back", stage.backed_m);
+        check(&format!(
+            "{spent}\n press {side}\n clean\n wait 40 => stuck contact-held"
+        ));
     }
 }
 

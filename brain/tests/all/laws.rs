@@ -45,7 +45,7 @@ fn command() -> impl Strategy<Value = JobCommand> {
 #[derive(Clone, Debug)]
 struct Episode {
     contacts: (bool, bool),
-    cliff: bool,
+    cliffs: (bool, bool, bool),
     wheel_drop: bool,
     link_up: bool,
     docked: bool,
@@ -60,7 +60,7 @@ fn episode() -> impl Strategy<Value = Episode> {
     let rarely = || prop::bool::weighted(0.12);
     let senses = (
         (rarely(), rarely()),
-        rarely(),
+        (rarely(), rarely(), rarely()),
         rarely(),
         prop::bool::weighted(0.9),
         rarely(),
@@ -72,11 +72,11 @@ fn episode() -> impl Strategy<Value = Episode> {
         prop::collection::vec(command(), 0..3),
         1..250_u32,
     );
-    (senses, rest).prop_map(|((contacts, cliff, wheel_drop, link_up, docked), rest)| {
+    (senses, rest).prop_map(|((contacts, cliffs, wheel_drop, link_up, docked), rest)| {
         let (inhibits, beams, speed_share, commands, steps) = rest;
         Episode {
             contacts,
-            cliff,
+            cliffs,
             wheel_drop,
             link_up,
             docked,
@@ -92,10 +92,8 @@ fn episode() -> impl Strategy<Value = Episode> {
 fn perceive(observation: &mut Observation, episode: &Episode) {
     let (left, right) = episode.contacts;
     observation.contacts = Contacts { left, right };
-    observation.cliffs = Cliffs {
-        middle: episode.cliff,
-        ..Cliffs::default()
-    };
+    let (left, middle, right) = episode.cliffs;
+    observation.cliffs = Cliffs { left, middle, right };
     observation.wheel_drop = episode.wheel_drop;
     observation.link_up = episode.link_up;
     observation.docked = episode.docked;
@@ -191,6 +189,12 @@ proptest! {
 /// then left either way, waits for a person before long.
 #[test]
 fn every_order_of_contacts_on_a_wedged_robot_ends_in_stuck() {
+    for right_too in [true, false] {
+        check_every_order_of_contacts(right_too);
+    }
+}
+
+fn check_every_order_of_contacts(right_too: bool) {
     const SLICES: u32 = 9;
     for order in 0..1_u32 << SLICES {
         let mut stage = working();
@@ -198,7 +202,7 @@ fn every_order_of_contacts_on_a_wedged_robot_ends_in_stuck() {
             let pressed = order & (1 << slice.min(SLICES - 1)) != 0;
             stage.observation.contacts = Contacts {
                 left: pressed,
-                right: pressed,
+                right: pressed && right_too,
             };
             for _ in 0..if slice < SLICES { 50 } else { 3000 } {
                 step_wedged(&mut stage);

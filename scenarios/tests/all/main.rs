@@ -23,6 +23,7 @@ mod mapping;
 mod monitor;
 mod outcomes;
 mod patterns;
+mod put_down;
 mod recharge;
 mod rooms;
 mod schedules;

@@ -124,16 +124,23 @@ impl Behavior {
         }
     }
 
-    /// Whether the robot must rest before its first motion, because it was just switched on and the gyro's bias is not measured yet.
-    fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
-        let has_not_moved =
-            |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < GYRO_SETTLING.wait_max_s;
+    /// Whether the robot must rest before its first motion, because it was just switched on and the gyro's bias is not measured yet. Where it
+    /// was put down against something it backs off first: a bumper that stays pressed meanwhile would be taken for stuck (S7).
+    fn settles_gyro(&mut self, situation: &Situation<'_>) -> bool {
         let settled_rad_per_s = if situation.is_tracked {
             GYRO_SETTLING.tracked_sigma_rad_per_s
         } else {
             GYRO_SETTLING.mapping_sigma_rad_per_s
         };
-        self.job.as_ref().is_some_and(has_not_moved)
+        let Some(job) = &mut self.job else { return false };
+        if situation.touching && !self.facts.docked && job.figures.path_m == 0.0 {
+            job.moves_before_rest_m = GYRO_SETTLING.backed_max_m;
+        }
+        let has_not_moved = job.figures.path_m <= job.moves_before_rest_m;
+        let may_rest = !situation.touching || self.facts.docked;
+        has_not_moved
+            && may_rest
+            && job.figures.time_s < GYRO_SETTLING.wait_max_s
             && situation
                 .gyro_bias_sigma_rad_per_s
                 .is_some_and(|sigma| sigma > settled_rad_per_s)

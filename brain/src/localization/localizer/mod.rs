@@ -115,7 +115,12 @@ impl Localization {
         } else if is_heard {
             self.gyro_us = Some(observation.time_us);
         }
-        self.reverse_budget.follow(advance);
+        if self.lift.is_lifted() {
+            // Who puts it down chooses the floor behind it.
+            self.reverse_budget = ReverseBudget::default();
+        } else {
+            self.reverse_budget.follow(advance);
+        }
         self.drift.grow(advance);
         if let Some(GyroChange::Out { missed_rad, .. }) = self.odometry.gyro_change() {
             self.drift.sigma_rad = libm::hypot(self.drift.sigma_rad, MISSED_TURN_DOUBT * missed_rad);

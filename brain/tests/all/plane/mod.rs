@@ -10,6 +10,8 @@ use brain::{
     Point2, Pose2, Speeds,
 };
 
+use crate::script::leads_away;
+
 pub(crate) const STEP_S: f64 = 0.02;
 pub(crate) const BODY: Body = Body {
     radius_m: 0.175,
@@ -223,7 +225,7 @@ impl World {
             return;
         };
         let held = !self.observation.inhibits.is_empty();
-        if held && (speed_m_per_s >= 0.0 || turn_rad_per_s != 0.0) {
+        if held && !leads_away(speed_m_per_s, turn_rad_per_s, &self.observation) {
             self.violations.push(format!(
                 "{:?} against {:?}",
                 actions.motion, self.observation.inhibits

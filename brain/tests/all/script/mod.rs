@@ -45,6 +45,8 @@ pub(crate) struct Stage {
     pub(crate) cleaners: bool,
     /// Way back without a way forward that made it good, in metres.
     pub(crate) backed_m: f64,
+    /// Steps for which a wheel has been hanging.
+    lifted_steps: u32,
     /// Mean travel of the wheels at the last observation.
     travel_m: f64,
     /// A person drove at the last observation.
@@ -67,6 +69,7 @@ impl Stage {
             motion: Motion::Rest,
             cleaners: false,
             backed_m: 0.0,
+            lifted_steps: 0,
             travel_m: 0.0,
             driven_by_hand: false,
             blocked: false,
@@ -137,7 +140,7 @@ impl Stage {
         );
         if seen.is_touching() || seen.is_at_cliff() {
             assert!(
-                speed_m_per_s < 0.0 && turn_rad_per_s == 0.0,
+                leads_away(speed_m_per_s, turn_rad_per_s, seen),
                 "{actions:?} while {seen:?}"
             );
         }
@@ -153,6 +156,15 @@ impl Stage {
         let advance_m = travel_m - self.travel_m;
         self.travel_m = travel_m;
         self.backed_m = (self.backed_m - advance_m).max(0.0);
+        self.lifted_steps = if self.observation.wheel_drop && self.observation.link_up {
+            self.lifted_steps + 1
+        } else {
+            0
+        };
+        // Who holds the robot up for a second chooses the floor behind it.
+        if u64::from(self.lifted_steps) * STEP_US >= 1_000_000 {
+            self.backed_m = 0.0;
+        }
         if self.driven_by_hand {
             self.backed_m = self.backed_m.min(0.15);
         }
@@ -193,10 +205,9 @@ impl Stage {
                 seen.contacts = Contacts { left, right };
             }
             "cliff" => {
-                seen.cliffs = Cliffs {
-                    middle: true,
-                    ..Cliffs::default()
-                }
+                let at = |side| arguments.first().copied().unwrap_or("middle") == side;
+                let (left, middle, right) = (at("left"), at("middle"), at("right"));
+                seen.cliffs = Cliffs { left, middle, right };
             }
             "floor" => seen.cliffs = Cliffs::default(),
             "lift" => seen.wheel_drop = true,
@@ -261,6 +272,22 @@ impl Stage {
 /// Inhibits are static names; the few of a test may leak.
 fn leak(name: &str) -> &'static str {
     Box::leak(name.to_owned().into_boxed_str())
+}
+
+/// Whether a motion is one of those that the firmware permits while a bumper is pressed (S6) or a cliff is seen (S8), and turns no held side
+/// forward.
+pub(crate) fn leads_away(speed_m_per_s: f64, turn_rad_per_s: f64, seen: &Observation) -> bool {
+    let forward_m_per_s = speed_m_per_s + 0.5 * TRACK_M * turn_rad_per_s.abs();
+    let turns_left = turn_rad_per_s > 0.0;
+    let is_held_on_one_side = |left: bool, right: bool| left != right && right == turns_left;
+    let (contacts, cliffs) = (seen.contacts, seen.cliffs);
+    if speed_m_per_s < 0.0 && turn_rad_per_s == 0.0 {
+        true
+    } else if seen.is_at_cliff() {
+        !seen.is_touching() && forward_m_per_s < 0.0 && is_held_on_one_side(cliffs.left, cliffs.right)
+    } else {
+        speed_m_per_s == 0.0 && is_held_on_one_side(contacts.left, contacts.right)
+    }
 }
 
 fn keep(inhibits: &mut Inhibits, is_kept: impl Fn(&str) -> bool) {

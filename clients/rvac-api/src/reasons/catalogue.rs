@@ -54,7 +54,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("cliff-front", "There is no floor ahead.", ""),
     entry("cliff", "A sensor sees no floor.", "It may only back away slowly."),
     entry("contact-held", "The bumper stays pressed, and it may not back off any farther.", "Free the bumper and clear the fault."),
-    entry("cliff-held", "It backed off and still sees no floor.", "Put it on firm floor and clear the fault."),
+    entry("cliff-held", "It may not back off any farther, and it still sees no floor.", "Put it on firm floor and clear the fault."),
     entry("boxed-in", "It found no way out of a tight place.", "Move it into the open."),
     entry("shut-in", "It does not get out of a small place.", "Open the door or move it into the open."),
     entry("not-moving", "Its wheels turn but it does not get on.", "Lift it off whatever holds it."),

@@ -67,7 +67,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("cliff-front", "Ees ei ole põrandat.", ""),
     entry("cliff", "Andur ei näe põrandat.", "Robot tohib ainult aeglaselt tagurdada."),
     entry("contact-held", "Põrkeraud on endiselt all ja kaugemale robot tagurdada ei tohi.", "Vabasta põrkeraud ja tühista rike."),
-    entry("cliff-held", "Robot tagurdas, aga ei näe ikka põrandat.", "Pane ta kindlale põrandale ja tühista rike."),
+    entry("cliff-held", "Robot ei näe ikka põrandat ja kaugemale tagurdada ta ei tohi.", "Pane ta kindlale põrandale ja tühista rike."),
     entry("boxed-in", "Robot ei leidnud kitsast kohast väljapääsu.", "Vii ta lagedamale."),
     entry("shut-in", "Robot ei pääse väikesest kohast välja.", "Ava uks või vii ta lagedamale."),
     entry("not-moving", "Rattad käivad, aga robot ei liigu.", "Tõsta ta lahti sellest, mis teda kinni hoiab."),
