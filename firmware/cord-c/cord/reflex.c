@@ -145,7 +145,12 @@ static void judge_bumper(uint8_t elapsed_ms, int8_t travelled) {
         backing_ms = 0;
         return;
     }
-    add_ms(&pressed_ms, elapsed_ms);
+    /* A robot that nobody may move may stand against a wall. */
+    if (cord_arming_state() == CORD_ARMING_LOCKED) {
+        pressed_ms = 0;
+    } else {
+        add_ms(&pressed_ms, elapsed_ms);
+    }
     if (is_backing) {
         add_ms(&backing_ms, elapsed_ms);
     } else {

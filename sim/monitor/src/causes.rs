@@ -113,7 +113,7 @@ impl Drives {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CauseTimes {
     pub(crate) bumper_ms: u32,
-    /// Pressed off the dock, which may press it permanently.
+    /// Pressed while the robot is armed, off the dock, which may press it permanently.
     pub(crate) bumper_stuck_ms: u32,
     /// Pressed while the wheels push backward.
     pub(crate) bumper_backing_ms: u32,
@@ -193,6 +193,11 @@ impl CauseTimes {
         self.pack = PackTimes::default();
         self.hardware.reset();
         self.loads = LoadTimes::default();
+    }
+
+    /// Nobody may move the robot: it may stand against a wall for as long as it likes (S7).
+    pub(crate) fn rest(&mut self) {
+        self.bumper_stuck_ms = 0;
     }
 
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {

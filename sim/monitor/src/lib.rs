@@ -112,6 +112,9 @@ impl Monitor {
     pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
         self.standing.update(pins, drives);
         self.permission.update(now_ms, &self.standing);
+        if !self.permission.armed(now_ms) {
+            self.standing.rest();
+        }
         self.update_loads(now_ms, pins, drives);
         self.reports.look(now_ms, pins);
         let told = self.reports.broken();

@@ -1,6 +1,6 @@
 //! S6: a press brakes at once, and only motion away from the pressed side is allowed until it is released.
-//! S7: a bumper that stays pressed for 3 s or 0.15 m while the robot backs off, or for 10 s off the dock, is stuck; that
-//! is latched. No sensor looks backwards, so a contact that opens and closes again does not restart the distance: only
+//! S7: a bumper that stays pressed for 3 s or 0.15 m while the robot backs off, or for 10 s while somebody may move the robot off the dock, is
+//! stuck; that is latched. A robot at rest may stand against a wall. No sensor looks backwards, so a contact that opens and closes again does not restart the distance: only
 //! driving forward reduces it.
 
 use rvac_protocol::message::Bumpers;
@@ -27,8 +27,8 @@ pub(crate) struct BumperContext {
     pub(crate) backing: bool,
     /// Distance of the robot's centre since the last pass, forward positive.
     pub(crate) travelled_nm: i32,
-    /// The robot is on the dock, which may press the bumper permanently.
-    pub(crate) docked: bool,
+    /// Nobody has armed, or the robot is on the dock, which may press the bumper permanently.
+    pub(crate) at_rest: bool,
 }
 
 impl BumperRule {
@@ -39,7 +39,7 @@ impl BumperRule {
         let pressed = left || right;
         let stuck_anyhow = self
             .pressed
-            .for_at_least(pressed && !context.docked, now, STUCK_MS);
+            .for_at_least(pressed && !context.at_rest, now, STUCK_MS);
         let stuck_backing = self
             .backing
             .for_at_least(pressed && context.backing, now, STUCK_BACKING_MS);

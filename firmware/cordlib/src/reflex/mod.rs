@@ -115,11 +115,10 @@ impl Reflexes {
         let now = senses.now;
         let dock = self.dock.update(senses.docked, now);
         let backing = motion.left.duty.saturating_add(motion.right.duty) < 0;
-        let docked = self.dock.is_docked();
         let context = BumperContext {
             backing,
             travelled_nm: motion.travelled_nm,
-            docked,
+            at_rest: self.arming.is_locked() || self.dock.is_docked(),
         };
         if self.bumper.update(senses.bumpers, context, now) {
             self.latched.insert(Inhibit::BumperStuck);

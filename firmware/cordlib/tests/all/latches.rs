@@ -112,7 +112,7 @@ fn reset_again_and_again() -> Rig {
 }
 
 fn stuck() -> Rig {
-    let mut rig = Rig::connected(0);
+    let mut rig = Rig::armed(0);
     rig.cord.board_mut().bumpers.0.left = true;
     rig.run(10_100);
     rig

@@ -251,6 +251,20 @@ fn s7_a_bumper_pressed_for_ten_seconds_is_stuck_and_latched() {
     assert!(!rig.has(Inhibit::BumperStuck));
 }
 
+/// People put it down against a wall, and it stops where it touches one.
+#[test]
+fn s7_a_robot_at_rest_may_stand_against_a_wall() {
+    let mut rig = Rig::connected(0);
+    press(&mut rig, BOTH);
+    rig.run(60_000);
+    assert!(!rig.has(Inhibit::BumperStuck), "{:?}", rig.names());
+    rig.arm();
+    rig.run(9_900);
+    assert!(!rig.has(Inhibit::BumperStuck), "{:?}", rig.names());
+    rig.run(200);
+    assert!(rig.has(Inhibit::BumperStuck), "{:?}", rig.names());
+}
+
 #[test]
 fn s7_a_bumper_pressed_while_backing_for_three_seconds_is_stuck() {
     let mut rig = Rig::driving(0);

@@ -9,7 +9,8 @@ use crate::edges::LevelTimes;
 
 /// A bumper that stays pressed for so long while the robot backs off is stuck.
 const STUCK_BACKING_US: u64 = 3_000_000;
-/// One that stays pressed for so long anyhow is stuck, except on the dock, which may press it for ever.
+/// One that stays pressed for so long anyhow is stuck, while somebody may move the robot: at rest it may stand against a wall, and the dock may
+/// press it for ever.
 const STUCK_US: u64 = 10_000_000;
 /// A bumper or a cliff that backing off by this has not ended holds the robot, metres.
 const BACKED_MAX_M: f64 = 0.15;
@@ -33,7 +34,7 @@ pub(super) struct HostLatches {
 #[derive(Clone, Copy, Debug, Default)]
 struct BumperLatch {
     pressed: LevelTimes,
-    pressed_off_dock: LevelTimes,
+    pressed_in_control: LevelTimes,
     pressed_backing: LevelTimes,
     /// Way backed while pressed, less the way forward since: no sensor looks backwards, so a contact that opens and closes again does
     /// not restart it.
@@ -50,12 +51,18 @@ struct CliffLatch {
 }
 
 impl HostLatches {
-    /// Takes a report, whose ways have signs, and marks in it what is latched. `true` if something latches now.
-    pub(super) fn take(&mut self, now_us: u64, report: &mut Report, sites: Reflexes) -> bool {
+    /// Takes a report, whose ways have signs, and whether the host has the robot's wheels; marks in the report what is latched. `true` if
+    /// something latches now.
+    pub(super) fn take(
+        &mut self,
+        now_us: u64,
+        report: &mut Report,
+        (sites, in_control): (Reflexes, bool),
+    ) -> bool {
         let before = self.latched;
         let way_m = 0.5 * (report.travel.left_m + report.travel.right_m);
         let ahead_m = self.way_m.replace(way_m).map_or(0.0, |last_m| way_m - last_m);
-        if is_host(sites.bump) && self.bumper.is_stuck(now_us, report, ahead_m) {
+        if is_host(sites.bump) && self.bumper.is_stuck(now_us, (report, in_control), ahead_m) {
             self.latched.insert(Inhibit::BumperStuck);
         }
         if is_host(sites.cliff) && self.cliff.is_trapped(now_us, report, ahead_m) {
@@ -103,15 +110,16 @@ impl HostLatches {
 }
 
 impl BumperLatch {
-    fn is_stuck(&mut self, now_us: u64, report: &Report, ahead_m: f64) -> bool {
+    fn is_stuck(&mut self, now_us: u64, (report, in_control): (&Report, bool), ahead_m: f64) -> bool {
         let (is_pressed, backs) = (report.contacts.any(), ahead_m < 0.0);
         self.pressed.take(now_us, is_pressed);
-        self.pressed_off_dock.take(now_us, is_pressed && !report.docked);
+        self.pressed_in_control
+            .take(now_us, is_pressed && in_control && !report.docked);
         self.pressed_backing.take(now_us, is_pressed && backs);
         if ahead_m > 0.0 || (is_pressed && backs) {
             self.backed_m = (self.backed_m - ahead_m).max(0.0);
         }
-        self.pressed_off_dock.has_lasted(now_us, STUCK_US)
+        self.pressed_in_control.has_lasted(now_us, STUCK_US)
             || self.pressed_backing.has_lasted(now_us, STUCK_BACKING_US)
             || (is_pressed && self.backed_m > BACKED_MAX_M)
     }
@@ -174,6 +182,14 @@ mod tests {
 
     /// Reports ten times a second while the robot drives at this speed; when it latched, in tenths of a second.
     fn latches_after(latches: &mut HostLatches, report: Report, m_per_s: f64) -> Option<u64> {
+        latches_in(latches, (report, true), m_per_s)
+    }
+
+    fn latches_in(
+        latches: &mut HostLatches,
+        (report, in_control): (Report, bool),
+        m_per_s: f64,
+    ) -> Option<u64> {
         (0..=150).find(|tenths| {
             let way_m = 0.1 * m_per_s * *tenths as f64;
             let mut told = report;
@@ -182,7 +198,7 @@ mod tests {
                 right_m: way_m,
                 speeds: None,
             };
-            latches.take(tenths * 100_000, &mut told, ALL)
+            latches.take(tenths * 100_000, &mut told, (ALL, in_control))
         })
     }
 
@@ -203,7 +219,7 @@ mod tests {
         assert_eq!(latches_after(&mut latches, pressed(false), 0.0), Some(100));
         assert_eq!(latches.clear(Inhibit::BumperStuck), Err(CommandError::Held));
         let mut free = Report::default();
-        latches.take(15_100_000, &mut free, ALL);
+        latches.take(15_100_000, &mut free, (ALL, true));
         assert!(
             free.inhibits.contains(Inhibit::BumperStuck),
             "until it is cleared"
@@ -213,11 +229,13 @@ mod tests {
     }
 
     #[test]
-    fn backing_off_makes_it_sooner_and_the_dock_may_press_it() {
+    fn backing_off_makes_it_sooner_and_at_rest_and_on_the_dock_it_may_be_pressed() {
         let after = |report, m_per_s| latches_after(&mut HostLatches::default(), report, m_per_s);
         assert_eq!(after(pressed(false), -0.02), Some(31), "three seconds of backing");
         assert_eq!(after(pressed(false), -0.08), Some(19), "15 cm");
         assert_eq!(after(pressed(true), 0.0), None);
+        let at_rest = latches_in(&mut HostLatches::default(), (pressed(false), false), 0.0);
+        assert_eq!(at_rest, None);
     }
 
     #[test]
@@ -233,7 +251,7 @@ mod tests {
         let mut latches = HostLatches::default();
         assert_eq!(latches_after(&mut latches, cliff, -0.08), Some(19));
         let mut latches = HostLatches::default();
-        let mut take = |at_us, report| latches.take(at_us, &mut { report }, ALL);
+        let mut take = |at_us, report| latches.take(at_us, &mut { report }, (ALL, true));
         for (at_us, report, is_trap) in [
             (0, cliff, false),
             (100_000, Report::default(), false),

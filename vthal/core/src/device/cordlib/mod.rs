@@ -172,7 +172,12 @@ impl Device for Cordlib {
     }
 
     /// Leases end by themselves, and a robot that nobody commands sleeps and charges.
-    fn release(&mut self, _io: &mut DeviceIo<'_>) {}
+    /// Nobody may move it until it is armed again: what turns its wheels then is a hand, and no fault (S12).
+    fn release(&mut self, io: &mut DeviceIo<'_>) {
+        if self.session.is_open() {
+            self.stop(io);
+        }
+    }
 
     fn drive(&mut self, drive: Drive, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         let drive = message::Drive {

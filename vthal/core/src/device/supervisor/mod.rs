@@ -20,8 +20,9 @@ use crate::Direction;
 /// firmware, which the robot ends to the millisecond.
 pub(super) const CLEANER_REPEAT_US: u64 = 300_000;
 
-/// A robot that has rested for so long is let go, so that it can sleep and charge.
-const RELEASE_AFTER_US: u64 = 5_000_000;
+/// A robot that has rested for so long is let go, so that it can sleep and charge, and people may push it by hand. A job starts within less
+/// (S24).
+const RELEASE_AFTER_US: u64 = 3_000_000;
 
 /// A robot on the link, of whatever make.
 #[derive(Debug)]
@@ -281,6 +282,7 @@ impl Supervisor {
 
     fn arm(&mut self, leave_dock: LeaveDock, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         self.device.arm(leave_dock, io)?;
+        self.duties.resting_since_us = None;
         self.duties.stop_sent_us = None;
         Ok(())
     }

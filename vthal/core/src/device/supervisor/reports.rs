@@ -66,7 +66,8 @@ impl Supervisor {
             heard.is_held |= reflexes.take(now_us, report);
         }
         if let Some(description) = described {
-            heard.is_held |= self.latches.take(now_us, report, description.reflexes);
+            let watched = (description.reflexes, self.duties.in_control);
+            heard.is_held |= self.latches.take(now_us, report, watched);
         }
         heard.turns |= self.watch.turned();
         match stop {
