@@ -18,6 +18,7 @@ mod roam;
 mod scan;
 mod travel;
 mod tries;
+mod unseen_specks;
 
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;

@@ -1,6 +1,7 @@
 //! What a search for a path to the dock is made from, and the search itself.
 
 use super::parameters::TRAVEL;
+use super::unseen_specks::close_specks;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
@@ -77,13 +78,22 @@ impl PathInputs {
         is_opened
     }
 
-    /// The path with the first of these gaps that allows one; when none does and floor before the dock is unknown, one over
-    /// that.
+    /// The path with the first of these gaps that allows one; when none does, one over what nobody has seen between floor, and then over
+    /// unknown floor before the dock.
     pub(super) async fn first_path(mut self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
         let path = self.first_that(clearances_m, |_| true, budget).await;
-        if path.is_some() || !self.open_before_dock() {
+        if path.is_some() {
             return path;
+        }
+        if close_specks(&mut self.knowledge, budget).await {
+            let path = self.first_that(clearances_m, |_| true, budget).await;
+            if path.is_some() {
+                return path;
+            }
+        }
+        if !self.open_before_dock() {
+            return None;
         }
         // Opened floor that nothing leads to would be the nearest floor to a robot that stands on none.
         let start = self.start.position();

@@ -85,7 +85,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("cliff-sensor", "A floor sensor does not work.", "Clean the windows below the bumper, then clear the fault."),
     entry("wheel-stall", "A wheel is blocked.", "Remove what holds the wheel, then clear the fault."),
     entry("brush-stall", "The main brush is blocked.", "Take out the brush and clean it, then clear the fault."),
-    entry("runaway", "A wheel turned without a command.", "Switch the robot off and have its electronics checked."),
+    entry("runaway", "A wheel turned without a command.", "If nobody pushed the robot, switch it off and have its electronics checked."),
     entry("encoder", "A wheel's sensor contradicts its motor.", "Clean the wheel; if it comes back, check the sensor."),
     entry("internal", "The robot's firmware failed a check of itself.", "Switch it off and on; keep the log if it comes back."),
     entry("unknown-inhibit", "Newer firmware stops it for a reason that this version does not know.", "Update the software."),

@@ -98,7 +98,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("cliff-sensor", "Põrandaandur ei tööta.", "Puhasta põrkeraua all olevad aknad, siis tühista rike."),
     entry("wheel-stall", "Ratas on kinni.", "Eemalda, mis ratast hoiab, siis tühista rike."),
     entry("brush-stall", "Põhihari on kinni.", "Võta hari välja ja puhasta see, siis tühista rike."),
-    entry("runaway", "Ratas pöörles ilma käsuta.", "Lülita robot välja ja lase elektroonika üle vaadata."),
+    entry("runaway", "Ratas pöörles ilma käsuta.", "Kui keegi robotit ei lükanud, lülita ta välja ja lase elektroonika üle vaadata."),
     entry("encoder", "Ratta andur räägib mootorile vastu.", "Puhasta ratas; kui see kordub, kontrolli andurit."),
     entry("internal", "Roboti püsivara ei läbinud enesekontrolli.", "Lülita robot välja ja sisse; kui see kordub, hoia logi alles."),
     entry("unknown-inhibit", "Uuem püsivara peatas roboti põhjusel, mida see versioon ei tunne.", "Uuenda tarkvara."),
