@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use brain::command::StrategyName;
 use brain::{BehaviorState, Brain};
 use home::{Home, Pose};
+use rvac_api::RequestBody;
 use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household, Scene};
 use scenarios::{generated, household, relax, scene, settings};
@@ -150,4 +151,30 @@ fn a_robot_that_may_not_back_turns_away_from_what_one_bumper_touches() {
         tried += 1;
     }
     assert!(tried >= 4, "{tried} places");
+}
+
+/// A robot that rests is disarmed: what turns its wheels is a hand then, and no fault of its electronics.
+#[test]
+fn a_paused_robot_may_be_pushed_about_and_leaned_against_a_wall() {
+    let scene = scene("two-room-flat", "nominal");
+    let mut household = household(&scene, &settings(1, 0)).with_known_map();
+    household.pass_ms(500);
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    household.pass_ms(60_000);
+    household.ask(RequestBody::Pause);
+    household.pass_ms(4_000);
+    for rims_m_per_s in [[-0.2, -0.2], [-0.15, 0.15], [0.2, 0.2]] {
+        let world = household.robot_mut().world_mut();
+        world.turn_wheels(Some(rims_m_per_s));
+        household.pass_ms(2_000);
+    }
+    household.robot_mut().world_mut().turn_wheels(None);
+    assert_eq!(state(&household), (BehaviorState::Paused, "command"));
+    let against = places_against(scene.home(), 19)[0];
+    household.robot_mut().world_mut().put_down_at(against);
+    household.pass_ms(30_000);
+    assert_eq!(state(&household), (BehaviorState::Paused, "command"));
+    household.ask(RequestBody::Resume);
+    household.pass_ms(15_000);
+    assert_eq!(state(&household).0, BehaviorState::Cleaning);
 }

@@ -250,6 +250,37 @@ fn sessions_move_the_same_motors_at_the_same_times() {
     assert!(stretches > LEGS * sessions as usize);
 }
 
+/// It may stand against a wall at rest; armed, a bumper that stays pressed for ten seconds is stuck.
+#[test]
+fn a_bumper_that_is_pressed_at_rest_is_not_stuck() {
+    fn leaned(cord: impl SimulatedCord) -> Account {
+        let mut recorder = Recorder {
+            bench: SessionBench::new(cord),
+            account: Account::default(),
+            ms: 0,
+        };
+        recorder.run(START_MS);
+        recorder.bench.senses.bumpers[0] = true;
+        recorder.run(30_000);
+        recorder.note();
+        recorder.bench.say(Command::Arm {
+            sequence: Sequence(0),
+            undock: false,
+        });
+        recorder.run(9_800);
+        recorder.note();
+        recorder.run(400);
+        recorder.note();
+        recorder.account
+    }
+    let in_rust = leaned(RustCord::new());
+    let in_c = leaned(HostedCord::start(&place("robot")).expect("the cord starts"));
+    compare(&in_rust, &in_c, "leaned");
+    let is_stuck = |names: &String| names.split(' ').any(|name| name == "bumper-stuck");
+    let stuck: Vec<bool> = in_c.inhibits.iter().map(is_stuck).collect();
+    assert_eq!(stuck, [false, false, true], "{:?}", in_c.inhibits);
+}
+
 /// A person without a host: hand mode.
 #[test]
 fn what_is_typed_moves_the_same_motors_at_the_same_times() {
