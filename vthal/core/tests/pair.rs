@@ -1,6 +1,6 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
-use brain::{Cell, CellKnowledge, JobCommand, Pose2, Raster, StoredMap};
+use brain::{Cell, CellKnowledge, JobCommand, NextNumbers, Pose2, Raster, StoredMap};
 use rvac_api::{
     CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, LogLevel, NoGoShape, PlaceShape, Request,
     RequestBody, RoomBefore, RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
@@ -842,6 +842,28 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "paused");
     hold(&mut pair, 0, 100);
     assert_eq!(pair.core.status().state, "starting", "it goes on");
+}
+
+/// The maps of its floor cannot be read any more: rooms, zones and places of the new one get numbers that nothing has had.
+#[test]
+fn a_floor_whose_maps_are_lost_goes_on_with_its_numbers() {
+    let next_numbers = NextNumbers {
+        room: 9,
+        no_go: 5,
+        place: 7,
+        room_change: 3,
+    };
+    let mut pair = Pair::with_floors(vec![KeptFloor {
+        next_numbers,
+        ..KeptFloor::new(1)
+    }]);
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.run_ms(5_000);
+    let begun = pair.records.iter().find_map(|record| match record {
+        Record::RunStarted(start) => start.checkpoint.home.as_ref(),
+        _ => None,
+    });
+    assert_eq!(begun.expect("a home without cells").next_numbers(), next_numbers);
 }
 
 /// A person who sends it home means it: the job waits for nothing.
