@@ -91,10 +91,10 @@ fn a_person_who_sends_it_home_ends_the_job_that_waits() {
 #[test]
 fn a_job_with_a_charge_in_the_middle_is_one_run_of_the_history() {
     let mut household = recharging();
-    household.robot_mut().world_mut().set_battery_charge(0.97);
+    household.robot_mut().world_mut().set_charging_speed(20.0);
     let cleans = |household: &Household| told(household).0 == BehaviorState::Cleaning;
     assert!(
-        household.pass_until(60, cleans).is_some(),
+        household.pass_until(2 * 60 * 60, cleans).is_some(),
         "{:?}",
         told(&household)
     );
