@@ -15,7 +15,8 @@ use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
 use crate::coverage::{JobConditions, JobEstimate, estimate, in_the_way};
 use crate::localization::Localization;
 use crate::mapping::{
-    BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
+    BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, NextNumbers, StampedOdometry,
+    StoredMap,
 };
 use crate::model::action::Actions;
 use crate::model::command::{Command, JobCommand, StrategyName};
@@ -98,6 +99,11 @@ impl Brain {
         brain.map.replace_home(home);
         brain.wake_on_dock();
         brain
+    }
+
+    /// What is new on the map from now on gets these numbers or higher ones: of a floor whose map is lost people keep numbers still.
+    pub fn number_after(&mut self, next: NextNumbers) {
+        self.map.number_after(next);
     }
 
     fn wake_on_dock(&mut self) {
@@ -339,7 +345,7 @@ impl Brain {
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
-            home: Some(self.map.stored()).filter(|home| !home.is_empty()),
+            home: Some(self.map.stored()).filter(|home| !home.is_blank()),
             ..self.checkpoint_without_home()
         }
     }

@@ -21,8 +21,8 @@ pub use coverage::JobEstimate;
 pub use localization::{StoreyFinder, StoreyFinding, StoreyPose, TrackingCheckpoint};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, CellPasses, DistanceField, Hazard, HazardKind, Keyframe, LoadedHome, Map,
-    MapCursor, MapLoader, MapPart, MapWriter, PathPoint, Raster, StoredMap, StoredMapError, SurfaceKind,
-    SweptRun,
+    MapCursor, MapLoader, MapPart, MapWriter, NextNumbers, PathPoint, Raster, StoredMap, StoredMapError,
+    SurfaceKind, SweptRun,
 };
 pub use model::action::{Actions, Motion};
 pub use model::advance::Advance;

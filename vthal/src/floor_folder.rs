@@ -8,8 +8,10 @@ use std::fs;
 use std::io;
 use std::path::PathBuf;
 
-use brain::{RoomName, StoredMap};
+use brain::{NextNumbers, RoomName};
+use rvac_api::{JobPart, ScheduledJob};
 use serde::{Deserialize, Serialize};
+use vthal_core::schedule::{Book, Entry};
 use vthal_core::{FloorTask, KeptFloor};
 
 use crate::map_folder::MapFolder;
@@ -128,11 +130,38 @@ impl FloorFolder {
         complaints.extend(unsettled);
         let mut floors = Vec::new();
         for entry in list.floors {
-            let (home, wrong) = self.maps(entry.number).newest();
+            let maps = self.maps(entry.number);
+            let (home, wrong) = maps.newest();
+            let (next_numbers, wrong_numbers) = maps.next_numbers();
             complaints.extend(wrong);
-            floors.push(kept(&entry, home));
+            complaints.extend(wrong_numbers);
+            floors.push(KeptFloor {
+                home: home.map(|home| home.numbered_after(next_numbers)),
+                next_numbers,
+                ..kept(&entry)
+            });
         }
         (floors, complaints)
+    }
+
+    /// What schedules name is not given again, also where the maps are older than they: after a copy of the folder of maps came back. Gives
+    /// what is wrong.
+    pub(crate) fn number_after_schedules(&self, book: &Book) -> Vec<String> {
+        let (list, mut complaints) = self.list();
+        for FloorEntry { number, .. } in list.floors {
+            let jobs = book.entries().map(Entry::plan);
+            let jobs = jobs.filter(|plan| plan.floor.is_none_or(|floor| floor == number));
+            let next = jobs.fold(NextNumbers::FIRST, |next, plan| next.after(named(&plan.job)));
+            let maps = self.maps(number);
+            complaints.extend(maps.next_numbers().1);
+            if next != NextNumbers::FIRST
+                && let Err(error) = maps.raise_numbers(next)
+            {
+                let folder = maps.path().display();
+                complaints.push(format!("cannot write the next numbers in {folder}: {error}"));
+            }
+        }
+        complaints
     }
 
     /// Carries out a client's order about floors, and returns the number of a new one.
@@ -249,10 +278,28 @@ fn read(text: &str) -> Result<List, String> {
     }
 }
 
-fn kept(entry: &FloorEntry, home: Option<StoredMap>) -> KeptFloor {
+/// The numbers after all that a job names.
+fn named(job: &ScheduledJob) -> NextNumbers {
+    let after = |number: u16| number.saturating_add(1);
+    job.places()
+        .0
+        .iter()
+        .fold(NextNumbers::FIRST, |next, part| match part {
+            JobPart::Room(room) => NextNumbers {
+                room: next.room.max(after(*room)),
+                ..next
+            },
+            JobPart::Place(place) => NextNumbers {
+                place: next.place.max(after(*place)),
+                ..next
+            },
+            JobPart::Zone(_) | JobPart::Spot(_) => next,
+        })
+}
+
+fn kept(entry: &FloorEntry) -> KeptFloor {
     KeptFloor {
         name: entry.name.as_deref().and_then(|name| RoomName::new(name).ok()),
-        home,
         removed: entry.removed,
         ..KeptFloor::new(entry.number)
     }
@@ -278,7 +325,9 @@ fn make_room(entries: &mut Vec<FloorEntry>) -> Result<Option<u16>, FloorError> {
 mod tests {
     use std::fs;
 
-    use brain::{Cell, CellKnowledge, Raster, RoomName, StoredMap};
+    use brain::{Cell, CellKnowledge, NextNumbers, Raster, RoomName, StoredMap};
+    use rvac_api::{InQuiet, JobOrder, JobPart, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
+    use vthal_core::schedule::{Book, Plan, ScheduleEdit, Zone};
     use vthal_core::{FloorTask, KeptFloor};
 
     use super::{FLOORS_MAX, FloorFolder, LIST};
@@ -371,6 +420,95 @@ mod tests {
         assert!(complaints[0].contains(LIST), "{complaints:?}");
         let aside = scratch.0.path().join("floors.json.damaged-1");
         assert_eq!(fs::read(aside).expect("is kept"), b"garbage");
+    }
+
+    /// A map whose next room has this number.
+    fn numbered(width: usize, room: u16) -> StoredMap {
+        home(width).numbered_after(NextNumbers {
+            room,
+            ..NextNumbers::FIRST
+        })
+    }
+
+    fn next_room(scratch: &Scratch) -> (bool, u16) {
+        let first = scratch.floors().remove(0);
+        let known = first.home.as_ref().map(|home| home.next_numbers());
+        assert!(known.is_none_or(|next| next == first.next_numbers));
+        (known.is_some(), first.next_numbers.room)
+    }
+
+    fn spoil(scratch: &Scratch, file: &str) {
+        fs::write(scratch.0.path().join(file), b"garbage").expect("writes");
+    }
+
+    /// An older map stands in for a damaged one, and does not give its numbers again: schedules keep numbers of rooms.
+    #[test]
+    fn numbers_do_not_come_back_when_the_newest_map_is_damaged() {
+        let scratch = Scratch::new("counters");
+        for (width, room) in [(4, 3), (5, 9)] {
+            scratch.0.maps(1).save(&numbered(width, room)).expect("saves");
+        }
+        assert_eq!(next_room(&scratch), (true, 9));
+        spoil(&scratch, "000002.map");
+        assert_eq!(next_room(&scratch), (true, 9));
+        scratch.0.maps(1).restore(1).expect("is whole");
+        assert_eq!(next_room(&scratch), (true, 9));
+        for map in ["000001.map", "000003.map"] {
+            spoil(&scratch, map);
+        }
+        assert_eq!(next_room(&scratch), (false, 9), "no map is whole");
+    }
+
+    #[test]
+    fn the_maps_know_the_numbers_when_the_file_of_them_is_damaged_or_never_was() {
+        let scratch = Scratch::new("no-counters");
+        for (width, room) in [(4, 9), (5, 3)] {
+            let bytes = vthal_core::stored_map::encode(&numbered(width, room));
+            scratch.0.maps(1).save_bytes(&bytes).expect("saves");
+        }
+        assert_eq!(next_room(&scratch), (true, 9), "as an older version left it");
+        scratch.0.maps(1).save(&numbered(6, 3)).expect("saves");
+        spoil(&scratch, "numbers.json");
+        let (floors, complaints) = scratch.0.load();
+        assert_eq!(floors[0].next_numbers.room, 9);
+        assert!(complaints[0].contains("numbers.json"), "{complaints:?}");
+    }
+
+    /// Somebody puts an older copy of the folder of maps back, and the schedules are as they were.
+    #[test]
+    fn what_schedules_name_is_not_given_again() {
+        let scratch = Scratch::new("backup");
+        scratch.0.maps(1).save(&numbered(4, 3)).expect("saves");
+        let plan = Plan::from_api(ScheduleEntry {
+            name: "Bath".to_owned(),
+            enabled: true,
+            job: ScheduledJob::Clean(JobOrder {
+                parts: vec![JobPart::Room(8), JobPart::Place(2), JobPart::Room(1)],
+                passes: 1,
+                avoid: Vec::new(),
+                power: None,
+                pattern: None,
+            }),
+            when: ScheduleTime::Weekly {
+                days: vec![Weekday::Mo],
+                at: "07:30".to_owned(),
+            },
+            late_min: 5,
+            in_quiet: InQuiet::Wait,
+            floor: Some(1),
+        });
+        let mut book = Book::default();
+        book.edit(
+            ScheduleEdit::Add(plan.expect("a plan")),
+            Zone::utc().at(1_800_000_000),
+        )
+        .expect("adds");
+        let complaints = scratch.0.number_after_schedules(&book);
+        assert!(complaints.is_empty(), "{complaints:?}");
+        assert_eq!(next_room(&scratch), (true, 9));
+        assert_eq!(scratch.floors()[0].next_numbers.place, 3);
+        scratch.0.maps(1).save(&numbered(5, 3)).expect("saves");
+        assert_eq!(next_room(&scratch), (true, 9), "and not later, either");
     }
 
     #[test]

@@ -168,6 +168,7 @@ impl KeptStore {
         let found = schedule_file::load(&kept.schedules);
         let (health, health_complaints) = health_file::load(&kept.health);
         let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
+        let unraised = kept.floors.number_after_schedules(&found.book);
         let (floors, floor_complaints) = kept.floors.load();
         let now = BootTime::now().ok();
         let newest = now.map(|now| checkpoint_file::newest(&kept.checkpoint, &now));
@@ -185,6 +186,7 @@ impl KeptStore {
                 health_complaints,
                 learnt_complaints,
                 lifetime_complaints,
+                unraised,
                 floor_complaints,
                 kept.mixes.put_damaged_aside(),
                 kept.folder_complaints(),

@@ -6,8 +6,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use brain::{CELL_M, CellKnowledge, StoredMap};
+use brain::{CELL_M, CellKnowledge, NextNumbers, StoredMap};
+use kept_file::{newest_json, replace_json};
 use rvac_api::KeptMap;
+use serde::{Deserialize, Serialize};
 use vthal_core::stored_map;
 
 use crate::numbered::number;
@@ -18,6 +20,46 @@ const VERSIONS_MAX: usize = 40;
 const BYTES_MAX: u64 = 16 << 20;
 /// Ending of the files.
 const ENDING: &str = ".map";
+/// Name of the file of the next numbers.
+const NUMBERS: &str = "numbers.json";
+
+/// The next numbers as they are written.
+#[derive(Debug, Serialize, Deserialize)]
+struct StoredNumbers {
+    room: u16,
+    room_change: u16,
+    no_go: u16,
+    place: u16,
+}
+
+impl From<NextNumbers> for StoredNumbers {
+    fn from(next: NextNumbers) -> Self {
+        let NextNumbers {
+            room,
+            room_change,
+            no_go,
+            place,
+        } = next;
+        Self {
+            room,
+            room_change,
+            no_go,
+            place,
+        }
+    }
+}
+
+impl From<StoredNumbers> for NextNumbers {
+    fn from(stored: StoredNumbers) -> Self {
+        Self {
+            room: stored.room,
+            room_change: stored.room_change,
+            no_go: stored.no_go,
+            place: stored.place,
+        }
+        .after(Self::FIRST)
+    }
+}
 
 /// The folder.
 #[derive(Clone, Debug)]
@@ -71,7 +113,39 @@ impl MapFolder {
     /// # Errors
     /// What the file system says.
     pub(crate) fn save(&self, home: &StoredMap) -> io::Result<()> {
+        self.raise_numbers(home.next_numbers())?;
         self.save_bytes(&stored_map::encode(home))
+    }
+
+    /// The numbers that nothing of the floor has had yet, and what is wrong with the file that holds them. They lie beside the maps,
+    /// because the newest map may be damaged; without them the maps know.
+    pub(crate) fn next_numbers(&self) -> (NextNumbers, Vec<String>) {
+        let kept = newest_json::<StoredNumbers, NextNumbers>(&self.path.join(NUMBERS), "the next numbers");
+        let next = kept.value.unwrap_or_else(|| self.next_numbers_of_maps());
+        (next, kept.complaints)
+    }
+
+    /// What is new on the floor gets these numbers or higher ones.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn raise_numbers(&self, next: NextNumbers) -> io::Result<()> {
+        let (before, complaints) = self.next_numbers();
+        for complaint in complaints {
+            tracing::error!(part = "vthal", "{complaint}");
+        }
+        let after = before.after(next);
+        let file = self.path.join(NUMBERS);
+        if after == before && file.exists() {
+            return Ok(());
+        }
+        fs::create_dir_all(&self.path)?;
+        replace_json(&file, &StoredNumbers::from(after))
+    }
+
+    fn next_numbers_of_maps(&self) -> NextNumbers {
+        let maps = self.numbers().into_iter().filter_map(|map| self.load(map).ok());
+        maps.fold(NextNumbers::FIRST, |next, map| next.after(map.next_numbers()))
     }
 
     /// As [`Self::save`], of a map that is bytes already.
@@ -137,19 +211,11 @@ impl MapFolder {
         let home = self
             .load(number)
             .map_err(|what| RestoreError::Broken { number, what })?;
-        let home = self.numbered_after_all(home);
+        // A room, zone or place that is new from now on gets a number that no version has given to another one: schedules and scripts
+        // keep numbers.
+        let home = home.numbered_after(self.next_numbers().0.after(self.next_numbers_of_maps()));
         self.save(&home)?;
         Ok(home)
-    }
-
-    /// A room, zone or place of this map that is new from now on gets a number that no version has given to another one: schedules and
-    /// scripts keep numbers.
-    fn numbered_after_all(&self, home: StoredMap) -> StoredMap {
-        let others = self
-            .numbers()
-            .into_iter()
-            .filter_map(|other| self.load(other).ok());
-        others.fold(home, |home, other| home.numbered_after(&other))
     }
 
     /// Deletes a version for good.

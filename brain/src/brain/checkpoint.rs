@@ -53,7 +53,7 @@ impl CheckpointWork {
             return None;
         };
         Some(Checkpoint {
-            home: Some(home).filter(|home| !home.is_empty()),
+            home: Some(home).filter(|home| !home.is_blank()),
             ..core::mem::take(&mut self.rest)
         })
     }

@@ -31,6 +31,8 @@ pub(super) struct Approach {
     asides: usize,
     /// Forward travel in the near field, metres.
     depth_m: f64,
+    /// Whether it touched something beside the centreline.
+    met_something: bool,
     /// How the last try failed.
     failed: Option<FailedTry>,
 }
@@ -97,6 +99,7 @@ impl Approach {
             wiggle_side: 1.0,
             asides: 0,
             depth_m: 0.0,
+            met_something: false,
             failed: None,
         }
     }
@@ -167,7 +170,7 @@ impl Approach {
             ScanStep::Found(bearing_rad) => {
                 self.scans += 1;
                 if self.scans > APPROACH.scans_max {
-                    return ApproachStep::Spent;
+                    return self.spend_scans();
                 }
                 context.decide(DecisionKind::DockScan, Reason::DockBeam, bearing_rad);
                 self.phase = self.after_scan(bearing_rad, situation, context);
@@ -304,6 +307,8 @@ impl Approach {
     fn leave(&mut self, base_rad: f64, context: &mut TaskContext) -> ApproachStep {
         self.tries += 1;
         self.wiggles = 0;
+        // The next try wiggles to the other side first.
+        self.wiggle_side = -self.wiggle_side;
         if self.tries >= APPROACH.tries_max {
             return ApproachStep::Spent;
         }
@@ -349,8 +354,9 @@ impl Approach {
     /// Evades a contact during a scan or on the path to the centreline.
     fn evade_contact(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
+        self.met_something = true;
         if self.scans > APPROACH.scans_max {
-            return ApproachStep::Spent;
+            return self.spend_scans();
         }
         let turn_rad = context
             .random
@@ -360,6 +366,12 @@ impl Approach {
             AfterEvasion::Scan,
         );
         ApproachStep::Going(Motion::Halt)
+    }
+
+    /// Ends an approach that never drove in. What was met on its paths to the centreline stands before the dock.
+    fn spend_scans(&mut self) -> ApproachStep {
+        self.failed = self.met_something.then_some(FailedTry::Obstructed);
+        ApproachStep::Spent
     }
 
     /// The motion towards a heading. Large errors are corrected on the spot first.

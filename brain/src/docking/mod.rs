@@ -43,6 +43,8 @@ pub(crate) struct Docking {
     approaches: u32,
     failed_tries: FailedTries,
     elapsed_s: f64,
+    /// Time since it stood before the dock first; `None` before that.
+    at_dock_s: Option<f64>,
     /// Beams are ignored for this long.
     ignore_s: f64,
     /// The map is ignored for this long.
@@ -70,11 +72,16 @@ impl Task for Docking {
     fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let time_s = situation.advance.time_s;
         self.elapsed_s += time_s;
+        self.at_dock_s = self.at_dock_s.map(|at_dock_s| at_dock_s + time_s);
         self.ignore_s = (self.ignore_s - time_s).max(0.0);
         self.search_s = (self.search_s - time_s).max(0.0);
         self.search.note(situation);
         if self.elapsed_s > situation.config.dock_budget_s {
             return TaskStatus::Finished(Reason::DockNotFound);
+        }
+        if !matches!(self.phase, DockingPhase::Approach(_)) {
+            self.failed_tries
+                .between_tries(self.at_dock_s.unwrap_or_default());
         }
         // A bumper that stays pressed while the robot rests would be taken for stuck (S7).
         if let Some(reason) = self.failed_tries.verdict()
@@ -198,6 +205,7 @@ impl Docking {
                 self.begin_approach(Reason::DockKnown, context);
             }
             TravelStep::Arrived => {
+                self.at_dock_s.get_or_insert_default();
                 let dock_rad = situation.map.dock().map_or(0.0, |dock| dock.heading_rad);
                 let bearing_rad = normalize_rad(dock_rad - situation.pose.heading_rad);
                 context.decide(DecisionKind::Approach, Reason::DockKnown, bearing_rad);
@@ -238,6 +246,8 @@ impl Docking {
     fn count_failed(&mut self, failed: FailedTry, situation: &Situation<'_>) {
         if failed == FailedTry::NoContact || known_dock(situation).is_ok() {
             self.failed_tries.count(failed);
+            self.failed_tries
+                .between_tries(self.at_dock_s.unwrap_or_default());
         }
     }
 

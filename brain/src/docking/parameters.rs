@@ -33,12 +33,12 @@ pub(super) const DOCKING: DockingParameters = DockingParameters {
 
 /// When docking ends because too much has failed.
 pub(super) struct TriesParameters {
-    /// Tries that touched the dock without contact, and tries that met something in front of it.
-    pub(super) contact_max: u32,
-    /// Tries that failed in any way.
+    /// Tries that failed in any way: without contact, before something in the way, without a beam.
     pub(super) all_max: u32,
-    /// Visits of the dock of the map without any beam.
+    /// Visits of the dock of the map without any beam, when nothing else was tried.
     pub(super) silent_max: u32,
+    /// Time since the robot stood first before the dock of the map, seconds, after which no other try begins.
+    pub(super) at_dock_max_s: f64,
     /// Searches for a path to the dock of the map that found none.
     pub(super) blocked_max: u32,
     /// The near field begins 0.36 m before the contacts. What is touched less than this far into it, metres, is not the dock.
@@ -46,9 +46,9 @@ pub(super) struct TriesParameters {
 }
 
 pub(super) const TRIES: TriesParameters = TriesParameters {
-    contact_max: 5,
-    all_max: 10,
+    all_max: 5,
     silent_max: 4,
+    at_dock_max_s: 240.0,
     blocked_max: 4,
     dock_depth_m: 0.2,
 };

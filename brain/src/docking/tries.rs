@@ -22,6 +22,7 @@ pub(super) struct FailedTries {
     passed: u32,
     silent: u32,
     blocked: u32,
+    is_late: bool,
 }
 
 impl FailedTries {
@@ -53,20 +54,22 @@ impl FailedTries {
         self.blocked.is_multiple_of(2)
     }
 
-    /// Why docking ends, once enough has failed.
+    /// No try is under way, so long after the robot stood before the dock of the map first.
+    pub(super) fn between_tries(&mut self, at_dock_s: f64) {
+        self.is_late = at_dock_s >= TRIES.at_dock_max_s;
+    }
+
+    /// Why docking ends, once enough has failed, or once something has failed and the robot has been at the dock for too long.
     pub(super) fn verdict(&self) -> Option<Reason> {
-        let all = self.no_contact + self.obstructed + self.passed;
-        if self.no_contact >= TRIES.contact_max {
-            Some(Reason::DockNoContact)
-        } else if self.obstructed >= TRIES.contact_max {
-            Some(Reason::DockObstructed)
-        } else if all >= TRIES.all_max {
-            Some(if self.obstructed > self.no_contact {
-                Reason::DockObstructed
-            } else {
-                Reason::DockNoContact
+        let drives_in = self.no_contact + self.obstructed + self.passed;
+        let all = drives_in + self.silent;
+        if all >= TRIES.all_max || (self.is_late && all > 0) {
+            Some(match drives_in {
+                0 => Reason::NoBeam,
+                _ if self.obstructed > self.no_contact => Reason::DockObstructed,
+                _ => Reason::DockNoContact,
             })
-        } else if self.silent >= TRIES.silent_max {
+        } else if self.silent >= TRIES.silent_max && drives_in == 0 {
             Some(Reason::NoBeam)
         } else if self.blocked >= TRIES.blocked_max {
             Some(Reason::WayBlocked)
@@ -78,41 +81,63 @@ impl FailedTries {
 
 #[cfg(test)]
 mod tests {
-    use super::{FailedTries, FailedTry};
+    use super::{FailedTries, FailedTry, TRIES};
     use crate::model::reason::Reason;
 
-    fn verdict(failed: &[(FailedTry, u32)]) -> Option<Reason> {
+    fn tries(failed: &[(FailedTry, u32)], silent: u32) -> FailedTries {
         let mut tries = FailedTries::default();
         for (what, times) in failed {
             (0..*times).for_each(|_| tries.count(*what));
         }
-        tries.verdict()
+        (0..silent).for_each(|_| tries.count_silent());
+        tries
     }
 
     #[test]
     fn the_verdict_names_what_failed_most() {
         use FailedTry::{NoContact, Obstructed, Passed};
-        for (failed, reason) in [
-            (vec![(NoContact, 4), (Obstructed, 3)], None),
-            (vec![(NoContact, 5)], Some(Reason::DockNoContact)),
+        for (failed, silent, reason) in [
+            (vec![(NoContact, 3), (Obstructed, 1)], 0, None),
+            (vec![(NoContact, 5)], 0, Some(Reason::DockNoContact)),
             (
-                vec![(NoContact, 4), (Obstructed, 5)],
+                vec![(NoContact, 2), (Obstructed, 3)],
+                0,
                 Some(Reason::DockObstructed),
             ),
-            (vec![(Passed, 9)], None),
-            (vec![(Passed, 9), (NoContact, 1)], Some(Reason::DockNoContact)),
+            (vec![(Passed, 4)], 0, None),
+            (vec![(Passed, 5)], 0, Some(Reason::DockNoContact)),
+            (vec![], 3, None),
+            (vec![], 4, Some(Reason::NoBeam)),
+            // A dock that was heard once is not silent: what stands before it hides it.
+            (vec![(Obstructed, 1)], 3, None),
+            (vec![(Obstructed, 1)], 4, Some(Reason::DockObstructed)),
+            (vec![(NoContact, 1)], 4, Some(Reason::DockNoContact)),
         ] {
-            assert_eq!(verdict(&failed), reason, "{failed:?}");
+            assert_eq!(tries(&failed, silent).verdict(), reason, "{failed:?} {silent}");
         }
     }
 
     #[test]
-    fn a_silent_or_blocked_dock_ends_it_as_well() {
+    fn what_takes_too_long_at_the_dock_ends_as_soon_as_something_failed() {
+        let verdict = |failed: &[(FailedTry, u32)], silent, at_dock_s| {
+            let mut tries = tries(failed, silent);
+            tries.between_tries(at_dock_s);
+            tries.verdict()
+        };
+        let late_s = TRIES.at_dock_max_s;
+        assert_eq!(verdict(&[], 0, late_s), None);
+        assert_eq!(verdict(&[], 1, late_s - 1.0), None);
+        assert_eq!(verdict(&[], 1, late_s), Some(Reason::NoBeam));
+        let obstructed = [(FailedTry::Obstructed, 1)];
+        assert_eq!(verdict(&obstructed, 2, late_s), Some(Reason::DockObstructed));
+    }
+
+    #[test]
+    fn a_dock_that_no_path_leads_to_ends_it_as_well() {
         let mut tries = FailedTries::default();
-        (0..4).for_each(|_| tries.count_silent());
-        assert_eq!(tries.verdict(), Some(Reason::NoBeam));
-        let mut tries = FailedTries::default();
-        (0..4).for_each(|_| tries.count_blocked());
+        (0..3).for_each(|_| tries.count_blocked());
+        assert_eq!(tries.verdict(), None);
+        tries.count_blocked();
         assert_eq!(tries.verdict(), Some(Reason::WayBlocked));
     }
 }

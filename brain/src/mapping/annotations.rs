@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::next_numbers::NextNumbers;
 use super::room_changes::RoomChanges;
 use crate::model::edit_error::EditError;
 use crate::model::kept_place::KeptPlace;
@@ -119,11 +120,21 @@ impl Annotations {
         says_nothing_of_rooms && self.no_go.is_empty() && self.places.kept.is_empty()
     }
 
-    /// New items get numbers that the other annotations have not given either.
-    pub(super) fn number_after(&mut self, other: &Self) {
-        self.next_no_go = self.next_no_go.max(other.next_no_go);
-        self.rooms.next = self.rooms.next.max(other.rooms.next);
-        self.places.next = self.places.next.max(other.places.next);
+    /// The numbers of new items; rooms are not among them.
+    pub(super) fn next_numbers(&self) -> NextNumbers {
+        NextNumbers {
+            room_change: self.rooms.next,
+            no_go: self.next_no_go,
+            place: self.places.next,
+            ..NextNumbers::default()
+        }
+    }
+
+    /// New items get these numbers or higher ones.
+    pub(super) fn number_after(&mut self, next: NextNumbers) {
+        self.next_no_go = self.next_no_go.max(next.no_go);
+        self.rooms.next = self.rooms.next.max(next.room_change);
+        self.places.next = self.places.next.max(next.place);
     }
 
     pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), EditError> {

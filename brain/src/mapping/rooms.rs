@@ -99,6 +99,11 @@ impl Rooms {
         self.next
     }
 
+    /// New rooms get this identity or a higher one.
+    pub(super) fn number_after(&mut self, next: u16) {
+        self.next = self.next.max(next);
+    }
+
     /// Allocates an identity that no room has had.
     pub(super) fn allocate_id(&mut self) -> u16 {
         let next = self.next;

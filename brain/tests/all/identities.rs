@@ -5,7 +5,7 @@ use crate::orders::{START, flat, known, zone};
 use crate::plane::{World, config, edit, run};
 use brain::{
     BehaviorState, Brain, Cell, CleaningOrder, CutLine, EditError, HomePart, JobCommand, KeptPlace, MapEdit,
-    NoGo, NoGoEdit, PlaceEdit, PlaceShape, Point2, RoomEdit, RoomName, StoredMap,
+    NextNumbers, NoGo, NoGoEdit, PlaceEdit, PlaceShape, Point2, RoomEdit, RoomName, StoredMap,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -162,7 +162,7 @@ impl Life {
             0 => back,
             _ => StoredMap::from_parts(back.parts()).expect("what was written is read"),
         };
-        self.brain = Brain::with_map(config(), 1, &back.numbered_after(&now));
+        self.brain = Brain::with_map(config(), 1, &back.numbered_after(now.next_numbers()));
         self.world = World::new(flat(), START);
         self.pass(0.2);
         if self.kept.len() < 60 {
@@ -242,6 +242,27 @@ fn live(seed: u64, steps: u32) {
         life.begun,
         life.accepted
     );
+}
+
+/// Of a floor whose maps cannot be read any more people keep numbers still.
+#[test]
+fn a_brain_without_a_map_goes_on_with_the_numbers_of_its_floor() {
+    let next = NextNumbers {
+        room: 5,
+        no_go: 3,
+        place: 4,
+        room_change: 2,
+    };
+    let mut brain = Brain::new(config(), 1);
+    brain.number_after(next);
+    let stored = brain.map().stored();
+    assert!(stored.is_empty());
+    assert_eq!(stored.next_numbers(), next, "also in what is kept of it");
+    let known = known(&flat()).numbered_after(stored.next_numbers());
+    let mut brain = Brain::with_map(config(), 1, &known);
+    run(&mut World::new(flat(), START), &mut brain, None, 1.0);
+    let rooms: Vec<u16> = rooms_of(&brain).into_keys().collect();
+    assert_eq!(rooms, [5, 6]);
 }
 
 #[test]

@@ -163,6 +163,18 @@ fn a_person_who_sends_it_to_the_dock_ends_the_job_that_waits() {
     check("up\n dock\n wait 4 => docking command\n dock => docking command");
 }
 
+/// Pause keeps the job, whatever the pack says meanwhile; Stop ends it, also when somebody then carries the robot home.
+#[test]
+fn a_person_who_stops_it_on_the_way_home_for_charge_is_obeyed() {
+    let on_the_way = "up\n charge 0.5\n clean\n wait 6\n charge 0.1 => docking battery-low\n wait 1\n";
+    check(&format!(
+        "{on_the_way} pause => paused command\n charge 0.95\n wait 60 => paused command\n resume => starting command"
+    ));
+    check(&format!(
+        "{on_the_way} stop => idle command\n docked\n charge 0.95\n wait 60 => docked"
+    ));
+}
+
 #[test]
 fn home_is_where_current_flows() {
     let there =
@@ -245,6 +257,31 @@ fn a_restart_on_the_dock_keeps_the_job_and_what_was_learnt() {
     assert_eq!(stage.brain.status().state, BehaviorState::Starting);
     assert_eq!(stage.brain.status().reason.name(), "charged");
     assert!(stage.brain.admit(&JobCommand::Pause).is_ok());
+}
+
+/// Whatever sends it home: nobody asked for the floor on the way to be swept.
+#[test]
+fn brushes_rest_on_the_way_to_the_dock() {
+    let short = BrainConfig {
+        task_budget_s: 10.0,
+        ..config()
+    };
+    let works = "up\n charge 0.5\n clean\n wait 6 => cleaning\n";
+    for (config, sent_home) in [
+        (config(), "charge 0.1 => docking battery-low"),
+        (config(), "dock => docking command"),
+        (config(), "charge 0.1 => docking\n dock => docking command"),
+        (short, "wait 10 => docking task-budget"),
+    ] {
+        let mut stage = check_with(config, &format!("{works} {sent_home}"));
+        let mut swept_steps = 0;
+        for _ in 0..50 * 20 {
+            stage.step(&[]);
+            swept_steps += u32::from(stage.cleaners);
+        }
+        assert_eq!(stage.brain.status().state, BehaviorState::Docking, "{sent_home}");
+        assert_eq!(swept_steps, 0, "{sent_home}");
+    }
 }
 
 #[test]

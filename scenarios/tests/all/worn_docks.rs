@@ -3,7 +3,7 @@
 use brain::command::StrategyName;
 use brain::{BehaviorState, Brain};
 use home::{DockContacts, Pose};
-use rvac_api::RequestBody;
+use rvac_api::{JobOrder, JobPart, LogEntry, LogLevel, RequestBody, RunJob, RunResult};
 use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
 use scenarios::{household, off_the_dock, scene, settings};
@@ -87,6 +87,63 @@ fn a_person_who_sends_it_home_ends_the_job_that_waits() {
     assert_eq!(told(&household), (BehaviorState::Docked, "command"));
 }
 
+/// A charge in the middle is no end of the job, and what follows is no new run.
+#[test]
+fn a_job_with_a_charge_in_the_middle_is_one_run_of_the_history() {
+    let mut household = recharging();
+    household.robot_mut().world_mut().set_charging_speed(20.0);
+    let cleans = |household: &Household| told(household).0 == BehaviorState::Cleaning;
+    assert!(
+        household.pass_until(2 * 60 * 60, cleans).is_some(),
+        "{:?}",
+        told(&household)
+    );
+    household.pass_ms(20_000);
+    household.ask(RequestBody::Stop);
+    household.pass_ms(6_000);
+    let [record] = household.host().expect("lives").runs() else {
+        panic!("one run: {:?}", household.host().map(Host::runs));
+    };
+    assert!(matches!(record.run.job, RunJob::Clean { .. }), "{:?}", record.run);
+    assert_eq!(
+        (record.run.result, record.run.reason.as_str()),
+        (RunResult::Stopped, "command")
+    );
+    let recharged = record.stops.iter().filter(|stop| stop.reason == "recharging");
+    assert_eq!(recharged.count(), 1, "{:?}", record.stops);
+}
+
+/// Whoever stops it on its way home stops the way home: the job was done.
+#[test]
+fn a_job_that_was_done_stays_finished_when_a_person_stops_its_way_home() {
+    let scene = scene("furnished-room", "nominal");
+    let mut household = household(&scene, &settings(1, 0)).with_known_map();
+    household.pass_ms(4_000);
+    let corners = vec![[-1.4, -0.4], [-0.8, -0.4], [-0.8, 0.4], [-1.4, 0.4]];
+    household.ask(RequestBody::Clean(JobOrder {
+        parts: vec![JobPart::Zone(corners)],
+        passes: 1,
+        avoid: Vec::new(),
+        power: None,
+        pattern: None,
+    }));
+    let goes_home = |household: &Household| told(household) == (BehaviorState::Docking, "finished");
+    assert!(
+        household.pass_until(600, goes_home).is_some(),
+        "{:?}",
+        told(&household)
+    );
+    household.ask(RequestBody::Stop);
+    household.pass_ms(6_000);
+    assert_eq!(told(&household), (BehaviorState::Idle, "command"));
+    let runs = household.host().expect("lives").runs();
+    let run = &runs.last().expect("a run").run;
+    assert_eq!(
+        (run.result, run.reason.as_str()),
+        (RunResult::Finished, "finished")
+    );
+}
+
 /// Sends a robot home to a dock that something is wrong with; gives the seconds until it rests, and what it says.
 fn sent_home(wear: impl Fn(&mut home::World)) -> (u64, BehaviorState, &'static str) {
     let scene = scene("furnished-room", "nominal");
@@ -126,4 +183,38 @@ fn contacts_that_carry_no_current_now_and_then_are_tried_again() {
     let (seconds, state, reason) = sent_home(dirty);
     assert_eq!((state, reason), (BehaviorState::Docked, "docked"));
     assert!(seconds < GIVES_UP_S, "{seconds} s");
+}
+
+/// The dock stops the wheels before the brain hears of it. That is how docking ends, and nothing to warn of.
+#[test]
+fn a_dock_that_is_driven_to_is_no_warning() {
+    let scene = scene("furnished-room", "nominal");
+    let mut household = household(&scene, &settings(2, 0)).with_known_map();
+    household.host_mut().expect("lives").keep_log();
+    household
+        .robot_mut()
+        .world_mut()
+        .put_down_at(off_the_dock(&scene));
+    household
+        .robot_mut()
+        .world_mut()
+        .set_dock_contacts(DockContacts::Dirty(0.5));
+    household.pass_ms(4_000);
+    household.ask(RequestBody::Dock);
+    let is_docked = |household: &Household| told(household) == (BehaviorState::Docked, "docked");
+    assert!(
+        household.pass_until(600, is_docked).is_some(),
+        "{:?}",
+        told(&household)
+    );
+    household.pass_ms(5_000);
+    let log = household.host().expect("lives").log();
+    let refused = |entry: &&LogEntry| entry.text.starts_with("the robot refused");
+    assert!(
+        log.iter().any(|entry| refused(&entry)),
+        "it touched the dock while it drove"
+    );
+    let warned = log.iter().filter(|entry| entry.level == LogLevel::Warn);
+    let warned: Vec<&LogEntry> = warned.filter(refused).collect();
+    assert!(warned.is_empty(), "{warned:?}");
 }

@@ -79,6 +79,7 @@ impl BrainSession {
         let seed = settings.seed;
         let mut brain = Brain::new(config, seed);
         brain.begin_with(learnt);
+        brain.number_after(floors.next_numbers_without_maps().unwrap_or_default());
         let mut session = Self {
             brain,
             config,

@@ -1,6 +1,6 @@
 //! The floors of the home: each has a map of its own, and is kept by the shell with all its versions.
 
-use brain::{RoomName, StoredMap};
+use brain::{NextNumbers, RoomName, StoredMap};
 use rvac_api::FloorView;
 
 /// Free floor of a map, in square metres.
@@ -22,6 +22,8 @@ pub struct KeptFloor {
     pub home: Option<StoredMap>,
     /// Whether a person has removed it: it is kept, and can come back.
     pub removed: bool,
+    /// What is new on it gets these numbers or higher ones, also when no map of it can be read any more.
+    pub next_numbers: NextNumbers,
 }
 
 impl KeptFloor {
@@ -33,6 +35,7 @@ impl KeptFloor {
             name: None,
             home: None,
             removed: false,
+            next_numbers: NextNumbers::FIRST,
         }
     }
 
@@ -117,6 +120,12 @@ impl Floors {
 
     pub(crate) fn home(&self, number: u16) -> Option<&StoredMap> {
         self.get(number)?.home.as_ref()
+    }
+
+    /// The numbers of what is new on the first floor, when no floor has a map.
+    pub(crate) fn next_numbers_without_maps(&self) -> Option<NextNumbers> {
+        let first = self.present().next()?;
+        self.homes().next().is_none().then_some(first.next_numbers)
     }
 
     /// The lowest number that is not removed.

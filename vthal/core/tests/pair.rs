@@ -1,14 +1,14 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
-use brain::{Cell, CellKnowledge, JobCommand, Pose2, Raster, StoredMap};
+use brain::{Cell, CellKnowledge, JobCommand, NextNumbers, Pose2, Raster, StoredMap};
 use rvac_api::{
-    CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, PlaceShape, Request, RequestBody,
-    RoomBefore, RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
+    CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, LogLevel, NoGoShape, PlaceShape, Request,
+    RequestBody, RoomBefore, RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
     BinaryKinds, Bumpers, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor,
-    MotorGaps, Name, Report, ResetCause, State, WheelDrops,
+    MotorGaps, Name, Refusal, Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
@@ -47,6 +47,8 @@ struct Pair {
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
+    /// What it answers to drive commands, in place of driving.
+    refuses_to_drive: Option<Refusal>,
 }
 
 impl Pair {
@@ -85,6 +87,7 @@ impl Pair {
             healths: Vec::new(),
             to_robot: Vec::new(),
             hears_stop: true,
+            refuses_to_drive: None,
         };
         pair.handle(Input::ClientConnected(ANNA));
         pair.handle(Input::ClientConnected(BERT));
@@ -194,6 +197,11 @@ impl Pair {
             match command {
                 Command::Stop if self.hears_stop => self.state.inhibits.insert(Inhibit::Stopped),
                 Command::Arm { .. } => self.state.inhibits.remove(Inhibit::Stopped),
+                Command::Drive(_) => {
+                    if let (Some(sequence), Some(_)) = (command.sequence(), self.refuses_to_drive) {
+                        self.robot.answer(sequence, self.refuses_to_drive);
+                    }
+                }
                 _ => {}
             }
             self.commands.push((self.now_ms, command));
@@ -836,6 +844,28 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "starting", "it goes on");
 }
 
+/// The maps of its floor cannot be read any more: rooms, zones and places of the new one get numbers that nothing has had.
+#[test]
+fn a_floor_whose_maps_are_lost_goes_on_with_its_numbers() {
+    let next_numbers = NextNumbers {
+        room: 9,
+        no_go: 5,
+        place: 7,
+        room_change: 3,
+    };
+    let mut pair = Pair::with_floors(vec![KeptFloor {
+        next_numbers,
+        ..KeptFloor::new(1)
+    }]);
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    pair.run_ms(5_000);
+    let begun = pair.records.iter().find_map(|record| match record {
+        Record::RunStarted(start) => start.checkpoint.home.as_ref(),
+        _ => None,
+    });
+    assert_eq!(begun.expect("a home without cells").next_numbers(), next_numbers);
+}
+
 /// A person who sends it home means it: the job waits for nothing.
 #[test]
 fn the_robots_dock_button_ends_its_job_and_sends_it_home() {
@@ -851,6 +881,31 @@ fn the_robots_dock_button_ends_its_job_and_sends_it_home() {
     let status = pair.core.status();
     assert_eq!(status.state, "docked");
     assert_eq!(status.reason, "docked", "it waits for nothing");
+}
+
+/// A bumper stops the wheels before the brain hears of it, and the commands under way are refused: that is no news. What else is
+/// refused is told to people.
+#[test]
+fn a_refusal_is_a_warning_unless_the_robot_had_just_stopped_by_itself() {
+    for (refusal, level) in [
+        (Refusal::Inhibited, LogLevel::Debug),
+        (Refusal::Range, LogLevel::Warn),
+        (Refusal::Absent, LogLevel::Warn),
+        (Refusal::Stale, LogLevel::Warn),
+    ] {
+        let mut pair = Pair::new();
+        pair.refuses_to_drive = Some(refusal);
+        assert_eq!(pair.push(ANNA, 0.2), None);
+        pair.run_ms(100);
+        let lines = pair.updates.iter().filter_map(|update| match update {
+            Update::Log(entry) if entry.text.contains("the robot refused") => Some(entry),
+            _ => None,
+        });
+        let told: Vec<(LogLevel, bool)> = lines
+            .map(|entry| (entry.level, entry.text.ends_with(refusal.name())))
+            .collect();
+        assert_eq!(told, [(level, true)], "{refusal:?}");
+    }
 }
 
 /// Buttons of the Linux board, on a robot that reports none.

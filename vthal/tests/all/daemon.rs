@@ -640,6 +640,7 @@ fn damaged_files_are_told_to_clients_and_kept() {
         ("learnt.json", "learnt.json.damaged-1"),
         ("statistics.json", "statistics.json.damaged-1"),
         ("maps/floors.json", "maps/floors.json.damaged-1"),
+        ("maps/numbers.json", "maps/numbers.json.damaged-1"),
         ("mixes/Sofa.json", "mixes/Sofa.json.damaged-1"),
         ("maps/000001.map", "maps/000001.map"),
         ("checkpoint", "checkpoint"),

@@ -12,6 +12,7 @@ use super::derived::Derived;
 use super::dock_location::DockLocation;
 use super::inverse_sensor_model::InverseSensorModel;
 use super::kept_home::KeptHome;
+use super::next_numbers::NextNumbers;
 use super::occupancy_grid::{CellBox, CellKnowledge, Flag, OccupancyGrid};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
@@ -336,6 +337,12 @@ impl HomeMap {
             .segmented_in_steps(knowledge, changes, budget)
             .await;
         self
+    }
+
+    /// What is new from now on gets these numbers or higher ones.
+    pub(super) fn number_after(&mut self, next: NextNumbers) {
+        self.rooms.number_after(next.room);
+        self.annotations.number_after(next);
     }
 
     /// Continues the counters of the replaced home.

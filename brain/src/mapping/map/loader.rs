@@ -5,8 +5,8 @@
 use core::task::Poll;
 
 use super::Map;
-use crate::mapping::StoredMap;
 use crate::mapping::home::HomeMap;
+use crate::mapping::{NextNumbers, StoredMap};
 use crate::model::config::BrainConfig;
 use crate::model::gradual::{Gradual, StepBudget, at_once};
 
@@ -45,6 +45,11 @@ impl Map {
         self.replace_home(LoadedHome(at_once(
             blank.filled(stored, &mut StepBudget::unlimited()),
         )));
+    }
+
+    /// What is new from now on gets these numbers or higher ones.
+    pub(crate) fn number_after(&mut self, next: NextNumbers) {
+        self.home.number_after(next);
     }
 
     /// Replaces the home by a loaded one.

@@ -10,6 +10,7 @@ pub use parts::{Numbered, StoredMapError, StoredMapParts};
 
 use super::annotations::Annotations;
 use super::cell_past::CellPast;
+use super::next_numbers::NextNumbers;
 use super::occupancy_grid::{CellBox, Evidence, Flag, OccupancyGrid, TILES_MAX};
 use super::rooms::Rooms;
 use super::tile_grid::TILE_CELLS;
@@ -92,11 +93,20 @@ impl StoredMap {
         Self { dock, ..self }
     }
 
-    /// The same map, whose new rooms, changes, zones and places get numbers that neither map has given yet.
+    /// The numbers that it gives next.
     #[must_use]
-    pub fn numbered_after(mut self, other: &Self) -> Self {
-        self.next_room = self.next_room.max(other.next_room);
-        self.annotations.number_after(&other.annotations);
+    pub fn next_numbers(&self) -> NextNumbers {
+        NextNumbers {
+            room: self.next_room,
+            ..self.annotations.next_numbers()
+        }
+    }
+
+    /// The same map, whose new rooms, changes, zones and places get these numbers or higher ones.
+    #[must_use]
+    pub fn numbered_after(mut self, next: NextNumbers) -> Self {
+        self.next_room = self.next_room.max(next.room);
+        self.annotations.number_after(next);
         self
     }
 
@@ -162,6 +172,12 @@ impl StoredMap {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cells.iter().all(|run| run.value == 0)
+    }
+
+    /// Whether all cells are unknown, and nothing has had a number yet.
+    #[must_use]
+    pub fn is_blank(&self) -> bool {
+        self.is_empty() && self.next_numbers().after(NextNumbers::FIRST) == NextNumbers::FIRST
     }
 
     pub(super) async fn of_layers(grid: &OccupancyGrid, rooms: &Rooms, budget: &mut StepBudget) -> Self {

@@ -39,7 +39,8 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
 
 /// The picture of a run that was cut short.
 pub(super) fn of_checkpoint(checkpoint: &brain::Checkpoint) -> RunPicture {
-    let home = checkpoint.home.as_ref().map(|stored| {
+    let known = checkpoint.home.as_ref().filter(|stored| !stored.is_empty());
+    let home = known.map(|stored| {
         // The body's size counts for what it can reach, which is not shown.
         let body = brain::Body {
             radius_m: 0.0,

@@ -176,7 +176,7 @@ fn worn_docks(arguments: &Arguments, homes: &[DockingHome], model: &RobotModel) 
         let home = homes.get(index).context("a home of the set")?;
         let trial = WornTrial::of(number, home, model)?;
         if arguments.explain {
-            writeln!(io::stderr(), "{trial:?}")?;
+            trial.explain()?;
         }
         trials.push(trial);
         progress.show(trials.len() as f64 / arguments.runs() as f64);

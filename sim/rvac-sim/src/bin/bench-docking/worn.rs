@@ -2,6 +2,7 @@
 //! gives up soon and says why.
 
 use std::fmt;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use anyhow::Context;
@@ -10,9 +11,9 @@ use brain::command::StrategyName;
 use home::generate::GeneratedHome;
 use home::{DockContacts, Home, Noise, Pcg, Pose, RobotModel};
 use robot::RobotSettings;
-use rvac_api::RequestBody;
+use rvac_api::{LogEntry, RequestBody};
 use rvac_sim::run::core_config;
-use rvac_sim::{Host, Household, Scene};
+use rvac_sim::{Host, Household, Scene, explain};
 use serde::Serialize;
 
 use crate::DockingHome;
@@ -133,7 +134,11 @@ pub(crate) struct WornTrial {
     /// Docked, or gave up for the right reason, in time.
     right: bool,
     time_s: f64,
+    /// Drives in to the dock and visits without its beams that failed, and the one that docked.
+    tries: usize,
     reason: String,
+    #[serde(skip)]
+    log: Vec<LogEntry>,
 }
 
 impl WornTrial {
@@ -150,7 +155,8 @@ impl WornTrial {
             ..RobotSettings::default()
         };
         let robot = scene.robot_at(Some(there), number, &settings);
-        let host = Host::start(0, core_config(&scene, number, StrategyName::Systematic));
+        let mut host = Host::start(0, core_config(&scene, number, StrategyName::Systematic));
+        host.keep_log();
         let mut household = Household::new(robot, host).with_known_map();
         household.robot_mut().world_mut().set_battery_charge(0.5);
         wear.apply(&mut household, &mut random);
@@ -175,6 +181,8 @@ impl WornTrial {
         let status = household.host().map(Host::status);
         let reason = status.map_or_else(String::new, |status| status.reason);
         let docked = household.robot().world().truth().docked && reason == "docked";
+        let log = household.host().map_or_else(Vec::new, |host| host.log().to_vec());
+        let tries = failed_tries(&log) + usize::from(docked);
         let is_in_time = time_ms <= LONGEST_MS;
         Self {
             wear,
@@ -183,9 +191,39 @@ impl WornTrial {
             docked,
             right: is_in_time && (docked || wear.right_reasons().contains(&reason.as_str())),
             time_s: time_ms as f64 / 1000.0,
+            tries,
             reason,
+            log,
         }
     }
+
+    /// Tells what the robot decided in a trial that does not count.
+    pub(crate) fn explain(&self) -> anyhow::Result<()> {
+        let mut out = io::stderr().lock();
+        writeln!(
+            out,
+            "{} {} seed {}: {} after {:.0} s",
+            self.wear.name(),
+            self.home,
+            self.seed,
+            self.reason,
+            self.time_s
+        )?;
+        Ok(explain(&self.log, &mut out)?)
+    }
+}
+
+/// Decisions that end a try.
+const FAILED: [&str; 3] = [
+    "dock-retry (",
+    "dock-search (dock-missed)",
+    "dock-search (no-beam)",
+];
+
+fn failed_tries(log: &[LogEntry]) -> usize {
+    log.iter()
+        .filter(|entry| FAILED.iter().any(|failed| entry.text.starts_with(failed)))
+        .count()
 }
 
 /// The home with what stands around its dock.
@@ -211,6 +249,7 @@ pub(crate) struct WornSummary {
     docked_or_right_reason: usize,
     share: f64,
     longest_s: f64,
+    tries_max: usize,
     by_wear: Vec<WornRow>,
 }
 
@@ -246,6 +285,7 @@ impl WornSummary {
             docked_or_right_reason: right,
             share: right as f64 / trials.len().max(1) as f64,
             longest_s: longest_s(trials.iter()),
+            tries_max: trials.iter().map(|trial| trial.tries).max().unwrap_or(0),
             by_wear: by_wear.to_vec(),
         }
     }
@@ -271,8 +311,8 @@ impl fmt::Display for WornSummary {
         }
         write!(
             formatter,
-            "{} of {} docked or gave up for the right reason within 6 minutes, {:.0} s at most",
-            self.docked_or_right_reason, self.trials, self.longest_s
+            "{} of {} docked or gave up for the right reason within 6 minutes, {:.0} s and {} tries at most",
+            self.docked_or_right_reason, self.trials, self.longest_s, self.tries_max
         )
     }
 }
