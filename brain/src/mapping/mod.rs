@@ -54,7 +54,7 @@ pub use doors::Door;
 pub(crate) use flood_fill::FloodFill;
 pub(crate) use home::PlaceTrust;
 pub use keyframe::Keyframe;
-pub(crate) use map::Brushes;
+pub(crate) use map::{Brushes, Sigmas};
 pub use map::{LoadedHome, Map, MapConfidence, MapCursor, MapLoader, MapPart, MapWriter};
 pub use occupancy_grid::CellKnowledge;
 pub(crate) use path_and_hazards::StampedOdometry;

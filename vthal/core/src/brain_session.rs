@@ -23,6 +23,7 @@ use rvac_api::HomeView;
 use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
+use crate::history::BrainAtHome;
 use crate::home_view::{SurfaceSensing, home_view};
 use crate::lacking::{self, Lacking};
 use crate::observe::{LinkView, Observer};
@@ -234,6 +235,14 @@ impl BrainSession {
         self.home_base
             .wrapping_add(map.revision())
             .wrapping_add(map.surface_revision())
+    }
+
+    /// The brain, with that revision.
+    pub(crate) fn at_home(&self) -> BrainAtHome<'_> {
+        BrainAtHome {
+            brain: &self.brain,
+            home_revision: self.home_revision(),
+        }
     }
 
     /// Whether the robot measures what its motors draw.
