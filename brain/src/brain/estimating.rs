@@ -28,10 +28,7 @@ impl Brain {
     /// # Errors
     /// Why the order cannot be carried out in this map.
     pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
-        at_once(
-            self.estimate_basis(order)?
-                .estimate(&mut StepBudget::unlimited()),
-        )
+        at_once(self.estimate_basis(order)?.estimate(&mut StepBudget::unlimited()))
     }
 
     /// As [`Self::estimate_order`], in steps: for a shell that answers others meanwhile.

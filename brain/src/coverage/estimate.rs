@@ -222,12 +222,7 @@ struct PartEstimator<'a> {
 }
 
 impl PartEstimator<'_> {
-    async fn part(
-        &self,
-        part: Option<&HomePart>,
-        start: Pose2,
-        budget: &mut StepBudget,
-    ) -> PartEstimate {
+    async fn part(&self, part: Option<&HomePart>, start: Pose2, budget: &mut StepBudget) -> PartEstimate {
         let EstimateBasis {
             order,
             frame,

@@ -110,7 +110,10 @@ impl EstimateDesk {
     /// A client is gone.
     pub(crate) fn forget(&mut self, client: ClientId) {
         self.waiting.retain(|waiting| waiting.asker.client != client);
-        self.in_progress = self.in_progress.take().filter(|(asker, _)| asker.client != client);
+        self.in_progress = self
+            .in_progress
+            .take()
+            .filter(|(asker, _)| asker.client != client);
     }
 }
 
