@@ -294,6 +294,14 @@ impl BrainSession {
                 None => true,
             });
         }
+        if is_stop(&command)
+            && let Some(first) = self.waiting.iter().position(is_stop)
+        {
+            // One stop is as good as two, and nothing is left of what came between them.
+            let since = self.waiting.split_off(first);
+            let left = since.into_iter().filter(|between| !ends_with_stop(between));
+            self.waiting.extend(left);
+        }
         self.waiting.push(command);
     }
 
@@ -428,6 +436,28 @@ impl BrainSession {
 }
 
 /// Why a run begins with a command; `None` for a command that begins none.
+fn is_stop(command: &Command) -> bool {
+    *command == Command::Job(JobCommand::Stop)
+}
+
+/// Whether nothing is left of a command that the brain has not heard once Stop comes after it. Whoever starts and stops without end would
+/// else let the brain begin and end hundreds of jobs in one step, with beeps for each.
+fn ends_with_stop(command: &Command) -> bool {
+    match command {
+        Command::Edit(_) => false,
+        Command::Job(command) => match command {
+            JobCommand::Clean { .. }
+            | JobCommand::CleanParts { .. }
+            | JobCommand::Spot
+            | JobCommand::Dock
+            | JobCommand::Pause
+            | JobCommand::Resume
+            | JobCommand::Stop => true,
+            JobCommand::Manual { .. } | JobCommand::ManualEnd | JobCommand::ClearError => false,
+        },
+    }
+}
+
 fn cause_of(command: &Command) -> Option<RunCause> {
     match command {
         Command::Edit(_) => None,

@@ -647,6 +647,23 @@ fn stops_without_end_do_not_fill_the_line_and_one_after_a_command_goes_out_at_on
     }
 }
 
+/// Commands wait for the next step of the brain, or until the home of the next run is ready: what Stop makes void does not wait.
+#[test]
+fn starts_and_stops_without_end_are_not_all_carried_out_in_one_step() {
+    let mut pair = on_the_dock();
+    for _ in 0..200 {
+        assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+        assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    }
+    assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+    pair.run_ms(2_000);
+    assert_eq!(pair.core.status().state, "docked");
+    let beeps = pair.commands.iter();
+    let beeps = beeps.filter(|(_, command)| matches!(command, Command::Beep(_)));
+    let beeps = beeps.count();
+    assert!(beeps < 20, "{beeps} beeps");
+}
+
 #[test]
 fn a_start_is_announced_before_anything_moves() {
     let mut pair = Pair::new();
