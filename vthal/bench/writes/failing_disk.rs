@@ -11,7 +11,7 @@ const SOURCE: &str = include_str!("failing_disk.c");
 
 /// How a disk fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Manner {
+pub(crate) enum DiskFault {
     /// One change fails with an error of input and output.
     ErrorOnce,
     /// From one change on the disk is full.
@@ -22,7 +22,7 @@ pub(crate) enum Manner {
     Torn,
 }
 
-impl Manner {
+impl DiskFault {
     pub(crate) const ALL: [Self; 4] = [Self::ErrorOnce, Self::Full, Self::ReadOnly, Self::Torn];
 
     /// For people and figures.
@@ -75,7 +75,7 @@ impl FailingDisk {
         &self,
         program: &Path,
         folder: &Path,
-        (manner, at): (Manner, u32),
+        (manner, at): (DiskFault, u32),
     ) -> anyhow::Result<Command> {
         let report = self.scratch.join("report");
         if report.exists() {

@@ -8,7 +8,7 @@ use anyhow::Context;
 use vthal_bench::Client;
 
 use crate::daemon::AtDaemon;
-use crate::failing_disk::{FailingDisk, Manner};
+use crate::failing_disk::{DiskFault, FailingDisk};
 use crate::life::{Keeper, Life, texts};
 use crate::store::Store;
 
@@ -90,7 +90,7 @@ pub(crate) fn try_faults(store: &dyn Store, vthal: &Path) -> anyhow::Result<Faul
     let disk = FailingDisk::build()?;
     let mut figures = FaultFigures::default();
     let mut number = 0;
-    for manner in Manner::ALL {
+    for manner in DiskFault::ALL {
         // Each manner begins with what a daemon finds that is new.
         let keeper = AtDaemon::new(store, vthal)?;
         for at in 1..=CHANGES_MAX {
@@ -117,7 +117,7 @@ pub(crate) fn try_faults(store: &dyn Store, vthal: &Path) -> anyhow::Result<Faul
 /// A life in which a change of the disk fails.
 fn live(
     keeper: &AtDaemon<'_>,
-    (disk, fault): (&FailingDisk, (Manner, u32)),
+    (disk, fault): (&FailingDisk, (DiskFault, u32)),
     (number, figures): (u64, &mut FaultFigures),
 ) -> anyhow::Result<Outcome> {
     let command = disk.under(keeper.vthal(), &keeper.state(), fault)?;
@@ -142,7 +142,7 @@ fn live(
 fn look(
     keeper: &AtDaemon<'_>,
     outcome: &Outcome,
-    ((manner, _), figures): ((Manner, u32), &mut FaultFigures),
+    ((manner, _), figures): ((DiskFault, u32), &mut FaultFigures),
 ) -> anyhow::Result<Option<String>> {
     let mut life = keeper.start()?;
     life.get_ready()?;
@@ -168,7 +168,7 @@ fn look(
     if found == *before {
         return Ok(None);
     }
-    if found == *after && manner != Manner::ErrorOnce {
+    if found == *after && manner != DiskFault::ErrorOnce {
         figures.could_not_be_taken_back += 1;
         return Ok(None);
     }

@@ -4,6 +4,7 @@
 //! of the one before, and then sees the last observation again. So a replay needs nothing from before the run.
 
 mod floors;
+mod made_void;
 mod next_run;
 mod runs;
 
@@ -294,13 +295,8 @@ impl BrainSession {
                 None => true,
             });
         }
-        if is_stop(&command)
-            && let Some(first) = self.waiting.iter().position(is_stop)
-        {
-            // One stop is as good as two, and nothing is left of what came between them.
-            let since = self.waiting.split_off(first);
-            let left = since.into_iter().filter(|between| !ends_with_stop(between));
-            self.waiting.extend(left);
+        if made_void::is_stop(&command) {
+            made_void::drop_what_stops_enclose(&mut self.waiting);
         }
         self.waiting.push(command);
     }
@@ -436,28 +432,6 @@ impl BrainSession {
 }
 
 /// Why a run begins with a command; `None` for a command that begins none.
-fn is_stop(command: &Command) -> bool {
-    *command == Command::Job(JobCommand::Stop)
-}
-
-/// Whether nothing is left of a command that the brain has not heard once Stop comes after it. Whoever starts and stops without end would
-/// else let the brain begin and end hundreds of jobs in one step, with beeps for each.
-fn ends_with_stop(command: &Command) -> bool {
-    match command {
-        Command::Edit(_) => false,
-        Command::Job(command) => match command {
-            JobCommand::Clean { .. }
-            | JobCommand::CleanParts { .. }
-            | JobCommand::Spot
-            | JobCommand::Dock
-            | JobCommand::Pause
-            | JobCommand::Resume
-            | JobCommand::Stop => true,
-            JobCommand::Manual { .. } | JobCommand::ManualEnd | JobCommand::ClearError => false,
-        },
-    }
-}
-
 fn cause_of(command: &Command) -> Option<RunCause> {
     match command {
         Command::Edit(_) => None,
