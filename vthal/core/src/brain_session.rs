@@ -17,8 +17,8 @@ use brain::{
 pub(crate) use floors::FloorNews;
 use floors::Hands;
 use next_run::{LeavingHome, LoadingFloor, NextHome, NextRun};
-use runs::RecordedRun;
 pub(crate) use runs::Recorder;
+use runs::{RecordedRun, cause_of};
 use rvac_api::HomeView;
 
 use crate::device::{Description, Part};
@@ -29,7 +29,7 @@ use crate::home_view::{SurfaceSensing, home_view};
 use crate::lacking::{self, Lacking};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
-use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
+use crate::{CoreConfig, FloorHome, Record, RunEnd, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -428,25 +428,6 @@ impl BrainSession {
             BehaviorState::Idle | BehaviorState::Docked | BehaviorState::Disconnected
         );
         at_rest && !status.resumable
-    }
-}
-
-/// Why a run begins with a command; `None` for a command that begins none.
-fn cause_of(command: &Command) -> Option<RunCause> {
-    match command {
-        Command::Edit(_) => None,
-        Command::Job(command) => match command {
-            JobCommand::Clean { .. }
-            | JobCommand::CleanParts { .. }
-            | JobCommand::Spot
-            | JobCommand::Dock => Some(RunCause::Job),
-            JobCommand::Manual { .. } => Some(RunCause::Manual),
-            JobCommand::Pause
-            | JobCommand::Resume
-            | JobCommand::Stop
-            | JobCommand::ManualEnd
-            | JobCommand::ClearError => None,
-        },
     }
 }
 
