@@ -2,6 +2,7 @@
 
 mod beacon_words;
 pub mod checkpoint;
+pub(crate) mod estimating;
 mod floor_sensing;
 mod gyro_words;
 mod learning;
@@ -12,7 +13,7 @@ mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
-use crate::coverage::{JobConditions, JobEstimate, estimate, in_the_way};
+use crate::coverage::in_the_way;
 use crate::localization::Localization;
 use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, NextNumbers, StampedOdometry,
@@ -229,22 +230,6 @@ impl Brain {
     /// of a recording, so such a run cannot be replayed.
     pub fn place_at(&mut self, pose: Pose2) {
         self.localization.place_at(pose);
-    }
-
-    /// What carrying out an order from the present pose will take. Plans the whole order, which takes tens of milliseconds.
-    ///
-    /// # Errors
-    /// Why the order cannot be carried out in this map.
-    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
-        let conditions = JobConditions {
-            map: &self.map,
-            start: self.pose(),
-            is_sure: self.estimate().is_sure(),
-            config: &self.config,
-            energy: &self.energy(),
-            charge: self.behavior.battery_charge(),
-        };
-        estimate(order, conditions)
     }
 
     /// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.

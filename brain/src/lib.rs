@@ -16,6 +16,7 @@ mod recovery;
 
 pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
 pub use brain::checkpoint::{Checkpoint, CheckpointWork};
+pub use brain::estimating::EstimateWork;
 pub use brain::{Brain, PlannedPath, checkpoint};
 pub use coverage::JobEstimate;
 pub use localization::{StoreyFinder, StoreyFinding, StoreyPose, TrackingCheckpoint};

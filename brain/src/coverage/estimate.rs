@@ -4,16 +4,21 @@ use super::order_reach::admit_reach;
 use super::parameters::{ESTIMATE, MARGINS};
 use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
-use crate::mapping::{Cell, CellKnowledge, Map, Raster};
+use crate::mapping::{Annotations, Cell, CellKnowledge, Map, Raster, Rooms, Sigmas};
 use crate::model::config::BrainConfig;
 use crate::model::edit_error::EditError;
 use crate::model::energy::{EnergyModel, PackUse, time_to_return_s};
 use crate::model::geometry::Pose2;
-use crate::model::gradual::{StepBudget, at_once};
+use crate::model::gradual::StepBudget;
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Inflation, reachable};
+
+/// Work to ask whether a cell lies in a part of an order.
+const LOOK_WORK: usize = 10;
+/// Work to weigh the gaps that two lanes leave in a cell, for both bounds.
+const GAP_WORK: usize = 100;
 
 /// The estimate of a job.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,74 +50,117 @@ pub(crate) struct JobConditions<'brain> {
     pub(crate) charge: Option<f64>,
 }
 
-/// What `order` takes under these conditions.
-///
-/// # Errors
-/// Why the order cannot be carried out in this map.
-pub(crate) fn estimate(
-    order: &CleaningOrder,
-    conditions: JobConditions<'_>,
-) -> Result<JobEstimate, JobRefusal> {
-    let JobConditions {
-        map,
-        start,
-        is_sure,
-        config,
-        energy,
-        charge: held,
-    } = conditions;
-    map.admit_order(order)?;
-    if is_sure {
-        admit_reach(order, map, start.position(), config.body.radius_m)?;
+/// What an estimate is made of, as it was when somebody asked: the map may change while it is made.
+#[derive(Debug)]
+pub(crate) struct EstimateBasis {
+    order: CleaningOrder,
+    start: Pose2,
+    settings: PlanSettings,
+    /// Radius of the body with clearance.
+    radius_m: f64,
+    /// Charge of a full pack.
+    full: f64,
+    energy: EnergyModel,
+    held: Option<f64>,
+    frame: LaneFrame,
+    words: Annotations,
+    rooms: Rooms,
+    knowledge: Raster<CellKnowledge>,
+    /// The same without what the order avoids.
+    open: Raster<CellKnowledge>,
+    sigmas: Sigmas,
+    dock: Option<Pose2>,
+    has_floor: bool,
+}
+
+impl EstimateBasis {
+    /// What the estimate of `order` under these conditions needs.
+    ///
+    /// # Errors
+    /// Why the order cannot be carried out in this map.
+    pub(crate) fn of(order: &CleaningOrder, conditions: JobConditions<'_>) -> Result<Self, JobRefusal> {
+        let JobConditions {
+            map,
+            start,
+            is_sure,
+            config,
+            energy,
+            charge,
+        } = conditions;
+        map.admit_order(order)?;
+        if is_sure {
+            admit_reach(order, map, start.position(), config.body.radius_m)?;
+        }
+        Ok(Self {
+            order: order.clone(),
+            start,
+            settings: plan_settings(config),
+            radius_m: config.body.radius_m + MARGINS.clearance_m,
+            full: f64::from(config.battery_charged),
+            energy: *energy,
+            held: charge,
+            frame: LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0)),
+            words: map.annotations().clone(),
+            rooms: map.rooms().clone(),
+            knowledge: map.knowledge().clone(),
+            open: map.knowledge_avoiding(order.avoid()),
+            sigmas: map.sigmas(),
+            dock: map.dock(),
+            has_floor: map.free_m2() > 0.0,
+        })
     }
-    let settings = plan_settings(config);
-    let knowledge = map.knowledge_avoiding(order.avoid());
-    let radius_m = config.body.radius_m + MARGINS.clearance_m;
-    let inflation = Inflation {
-        radius_m,
-        blocked: &[],
-    };
-    let budget = &mut StepBudget::unlimited();
-    let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
-    let reachable_cells = at_once(reachable(&knowledge, &frame, inflation, budget));
-    let estimator = PartEstimator {
-        order,
-        map,
-        frame,
-        reachable_cells,
-        settings,
-    };
-    let mut sum = OrderTotal::at(start);
-    let whole = order.is_for_whole_home().then_some(None);
-    for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
-        sum.add(estimator.part(part, sum.pose));
-    }
-    if sum.floor_m2 <= 0.0 {
-        return Err(if map.free_m2() > 0.0 {
+
+    /// What the order takes.
+    ///
+    /// # Errors
+    /// There is no floor that can be swept.
+    pub(crate) async fn estimate(self, budget: &mut StepBudget) -> Result<JobEstimate, JobRefusal> {
+        let inflation = Inflation {
+            radius_m: self.radius_m,
+            blocked: &[],
+        };
+        let reachable_cells = reachable(&self.open, &self.frame, inflation, budget).await;
+        let estimator = PartEstimator {
+            basis: &self,
+            reachable_cells,
+        };
+        let mut sum = OrderTotal::at(self.start);
+        let whole = self.order.is_for_whole_home().then_some(None);
+        for part in whole.into_iter().chain(self.order.parts().iter().map(Some)) {
+            sum.add(estimator.part(part, sum.pose, budget).await);
+        }
+        if sum.floor_m2 > 0.0 {
+            return Ok(self.result(&sum));
+        }
+        Err(if self.has_floor {
             JobRefusal::RestOutOfReach
         } else {
             EditError::NoMap.into()
-        });
+        })
     }
-    let home_m = map
-        .dock()
-        .map(|dock| sum.pose.position().distance_m(dock.position()));
-    let cruise_m_per_s = settings.cruise_m_per_s;
-    let home_s = home_m.map_or(0.0, |home_m| time_to_return_s(home_m, cruise_m_per_s));
-    let full = config.battery_charged;
-    let pack = PackUse {
-        held: held.unwrap_or(f64::from(full)),
-        recharged: f64::from(full),
-        least: energy.charge_to_return(home_m.unwrap_or_default(), cruise_m_per_s),
-    };
-    Ok(JobEstimate {
-        floor_m2: sum.floor_m2,
-        time_s: sum.time_s,
-        charge: energy.charge_for(sum.time_s, home_s),
-        recharges: pack.recharges(energy.charge_for(sum.time_s, 0.0)),
-        share: sum.swept_m2 / sum.floor_m2,
-        share_low: sum.swept_low_m2 / sum.floor_m2,
-    })
+
+    fn result(&self, sum: &OrderTotal) -> JobEstimate {
+        let home_m = self
+            .dock
+            .map(|dock| sum.pose.position().distance_m(dock.position()));
+        let cruise_m_per_s = self.settings.cruise_m_per_s;
+        let home_s = home_m.map_or(0.0, |home_m| time_to_return_s(home_m, cruise_m_per_s));
+        let pack = PackUse {
+            held: self.held.unwrap_or(self.full),
+            recharged: self.full,
+            least: self
+                .energy
+                .charge_to_return(home_m.unwrap_or_default(), cruise_m_per_s),
+        };
+        JobEstimate {
+            floor_m2: sum.floor_m2,
+            time_s: sum.time_s,
+            charge: self.energy.charge_for(sum.time_s, home_s),
+            recharges: pack.recharges(self.energy.charge_for(sum.time_s, 0.0)),
+            share: sum.swept_m2 / sum.floor_m2,
+            share_low: sum.swept_low_m2 / sum.floor_m2,
+        }
+    }
 }
 
 /// What the lanes are planned by, for a robot that keeps its place as well as one can.
@@ -169,34 +217,34 @@ struct PartEstimate {
 
 /// What the estimates of all parts of an order have in common.
 struct PartEstimator<'a> {
-    order: &'a CleaningOrder,
-    map: &'a Map,
-    frame: LaneFrame,
+    basis: &'a EstimateBasis,
     reachable_cells: Raster<bool>,
-    settings: PlanSettings,
 }
 
 impl PartEstimator<'_> {
-    fn part(&self, part: Option<&HomePart>, start: Pose2) -> PartEstimate {
-        let target = TargetFloor::of(self.order, part, self.map);
+    async fn part(&self, part: Option<&HomePart>, start: Pose2, budget: &mut StepBudget) -> PartEstimate {
+        let EstimateBasis {
+            order,
+            frame,
+            settings,
+            words,
+            rooms,
+            ..
+        } = self.basis;
+        let target = TargetFloor::within(order, part, (words, rooms));
         let area = Area {
-            pattern: |cell: Cell| target.pattern_at(self.frame.cell_in_map(cell)),
+            pattern: |cell: Cell| target.pattern_at(frame.cell_in_map(cell)),
             is_swept: |_| false,
         };
         let from = Departure {
-            start: self.frame.pose(start),
-            settings: self.settings,
+            start: frame.pose(start),
+            settings: *settings,
         };
-        let plan = at_once(plan_area(
-            &self.reachable_cells,
-            area,
-            from,
-            &mut StepBudget::unlimited(),
-        ));
-        let plan = plan.in_map(&self.frame);
+        let plan = plan_area(&self.reachable_cells, area, from, budget).await;
+        let plan = plan.in_map(frame);
         let end = plan.segments.last().map_or(start, |last| last.at(1.0));
-        let passes = self.map.annotations().passes_over(self.order, part);
-        let (kept, kept_low) = self.kept(&target, passes);
+        let passes = words.passes_over(order, part);
+        let (kept, kept_low) = self.kept(&target, passes, budget).await;
         PartEstimate {
             end,
             time_s: ESTIMATE.plan_to_job_time * f64::from(passes) * plan.time_s,
@@ -207,19 +255,27 @@ impl PartEstimator<'_> {
     }
 
     /// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
-    fn kept(&self, target: &TargetFloor, passes: u8) -> (f64, f64) {
-        let knowledge = self.map.knowledge();
-        let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, &self.settings), f64::from(passes));
+    async fn kept(&self, target: &TargetFloor, passes: u8, budget: &mut StepBudget) -> (f64, f64) {
+        let EstimateBasis {
+            knowledge,
+            sigmas,
+            settings,
+            ..
+        } = self.basis;
+        let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
         let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
-        for index in 0..knowledge.values().len() {
+        for (index, known) in knowledge.values().iter().enumerate() {
+            if *known != CellKnowledge::Free {
+                continue;
+            }
             let cell = knowledge.cell(index);
-            if knowledge.values().get(index) == Some(&CellKnowledge::Free)
-                && target.pattern_at(cell).is_some()
-            {
-                let sigma_m = sigma_or_default_m(self.map.sigma_m(cell));
+            budget.spend(LOOK_WORK).await;
+            if target.pattern_at(cell).is_some() {
+                let sigma_m = sigma_or_default_m(sigmas.at_m(cell));
                 cells += 1;
                 sum += 1.0 - left(sigma_m);
                 sum_low += 1.0 - left(ESTIMATE.low_bound_factor * sigma_m);
+                budget.spend(GAP_WORK).await;
             }
         }
         let cells = f64::from(cells.max(1));

@@ -18,7 +18,7 @@ mod whole_turns;
 
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
-pub(crate) use estimate::{JobConditions, estimate};
+pub(crate) use estimate::{EstimateBasis, JobConditions};
 pub(crate) use order_reach::{admit_reach, in_the_way, is_off_order, left_most};
 pub(crate) use perimeter::{LapStep, Perimeter};
 pub(crate) use spot::Spot;

@@ -1,7 +1,7 @@
 //! The floor that a part of an order asks for, and its sweep pattern.
 
 use super::plan::SweepPattern;
-use crate::mapping::{Cell, Map, Rooms};
+use crate::mapping::{Annotations, Cell, Map, Rooms};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::room_settings::Pattern;
 
@@ -19,7 +19,15 @@ pub(crate) struct TargetFloor {
 impl TargetFloor {
     /// The floor of a part of an order; `None` = the whole home.
     pub(crate) fn of(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Self {
-        let words = map.annotations();
+        Self::within(order, part, (map.annotations(), map.rooms()))
+    }
+
+    /// As [`Self::of`], in a home with these words and rooms.
+    pub(crate) fn within(
+        order: &CleaningOrder,
+        part: Option<&HomePart>,
+        (words, rooms): (&Annotations, &Rooms),
+    ) -> Self {
         let ring_rooms = match part {
             Some(_) => Vec::new(),
             None => words.contour_rooms(order),
@@ -27,9 +35,9 @@ impl TargetFloor {
         let needs_rooms = part.is_some() || !ring_rooms.is_empty();
         Self {
             part: part.cloned(),
-            usual: sweep_pattern(order, part, map),
+            usual: sweep_pattern(order, part, words),
             ring_rooms,
-            rooms: needs_rooms.then(|| map.rooms().clone()),
+            rooms: needs_rooms.then(|| rooms.clone()),
         }
     }
 
@@ -52,9 +60,9 @@ impl TargetFloor {
 }
 
 /// In a spot the dirt is in the middle, so sweeping starts there.
-fn sweep_pattern(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> SweepPattern {
+fn sweep_pattern(order: &CleaningOrder, part: Option<&HomePart>, words: &Annotations) -> SweepPattern {
     match (part, order.pattern()) {
         (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => SweepPattern::Outwards,
-        _ => map.annotations().pattern_over(order, part).into(),
+        _ => words.pattern_over(order, part).into(),
     }
 }

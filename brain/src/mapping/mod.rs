@@ -55,7 +55,7 @@ pub use doors::Door;
 pub(crate) use flood_fill::FloodFill;
 pub(crate) use home::PlaceTrust;
 pub use keyframe::Keyframe;
-pub(crate) use map::Brushes;
+pub(crate) use map::{Brushes, Sigmas};
 pub use map::{LoadedHome, Map, MapConfidence, MapCursor, MapLoader, MapPart, MapWriter};
 pub use next_numbers::NextNumbers;
 pub use occupancy_grid::CellKnowledge;

@@ -243,6 +243,23 @@ fn the_estimate_tells_charge_and_share() {
 }
 
 #[test]
+fn an_estimate_in_steps_is_the_same_and_whoever_asks_for_it_can_serve_others_in_between() {
+    let stage = Stage::new();
+    let parts = (0..16)
+        .map(|_| HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8))))
+        .collect();
+    let order = CleaningOrder::new(parts, 3).unwrap();
+    let mut work = stage.brain.begin_estimate(&order).expect("can be done");
+    let (mut steps, mut made) = (0, None);
+    while made.is_none() {
+        steps += 1;
+        made = work.go_on();
+    }
+    assert_eq!(made, Some(stage.brain.estimate_order(&order)));
+    assert!(steps > 16, "at least one for each part: {steps}");
+}
+
+#[test]
 fn the_estimate_counts_recharges_from_what_the_pack_holds() {
     let mut stage = Stage::new();
     let order = CleaningOrder::new(vec![HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8)))], 3).unwrap();

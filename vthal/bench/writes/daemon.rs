@@ -1,7 +1,8 @@
 //! The daemon, with a robot on its dock and a client.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
@@ -39,14 +40,26 @@ impl<'a> AtDaemon<'a> {
     }
 }
 
-impl Keeper for AtDaemon<'_> {
-    fn name(&self) -> &'static str {
-        self.store.name()
+impl AtDaemon<'_> {
+    /// The daemon's program.
+    pub(crate) fn vthal(&self) -> &Path {
+        self.vthal
     }
 
-    fn start(&self) -> anyhow::Result<Box<dyn Life + '_>> {
-        let daemon = Daemon::start(self.vthal, &self.scratch, &["--seed", "1"])?;
-        let client = Client::watching(&self.scratch.join("vthal.sock"), r#"["log"]"#)?;
+    /// The folder in which everything is kept.
+    pub(crate) fn state(&self) -> PathBuf {
+        self.scratch.join("state")
+    }
+
+    /// The socket for clients.
+    pub(crate) fn socket(&self) -> PathBuf {
+        self.scratch.join("vthal.sock")
+    }
+
+    /// Starts the daemon by a command that becomes it.
+    pub(crate) fn start_as(&self, command: Command) -> anyhow::Result<Box<OfDaemon<'_>>> {
+        let daemon = Daemon::start_as(command, &self.scratch, &["--seed", "1"])?;
+        let client = Client::watching(&self.socket(), r#"["log"]"#)?;
         Ok(Box::new(OfDaemon {
             store: self.store,
             daemon,
@@ -55,10 +68,29 @@ impl Keeper for AtDaemon<'_> {
     }
 }
 
-struct OfDaemon<'a> {
+impl Keeper for AtDaemon<'_> {
+    fn name(&self) -> &'static str {
+        self.store.name()
+    }
+
+    fn start(&self) -> anyhow::Result<Box<dyn Life + '_>> {
+        let life = self.start_as(Command::new(self.vthal))?;
+        Ok(life)
+    }
+}
+
+/// The daemon while it runs.
+pub(crate) struct OfDaemon<'a> {
     store: &'a dyn Store,
     daemon: Daemon,
     desk: Desk,
+}
+
+impl OfDaemon<'_> {
+    /// Waits until the change is acknowledged or refused; whether it was acknowledged.
+    pub(crate) fn wait_for_answer(&mut self) -> anyhow::Result<bool> {
+        self.desk.wait_for_answer(CHANGE_ID)
+    }
 }
 
 impl Life for OfDaemon<'_> {

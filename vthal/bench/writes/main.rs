@@ -2,6 +2,8 @@
 //!
 //! Each life of a program takes some changes that are acknowledged, and one during which it is killed. The next life must know
 //! all that was acknowledged; the last change is whole or not there at all.
+//!
+//! With `--faults` nothing is killed in a change: each change that the daemon makes on its disk fails once, in each manner.
 
 use std::process::ExitCode;
 use std::thread::{self, ScopedJoinHandle};
@@ -12,6 +14,8 @@ use vthal_bench::needed_beside;
 
 mod daemon;
 mod devices;
+mod failing_disk;
+mod faults;
 mod figures;
 mod floors;
 mod home;
@@ -48,13 +52,22 @@ struct Arguments {
     /// Seed of the moments
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Lets each change of the daemon's disk fail instead
+    #[arg(long, conflicts_with = "kills")]
+    faults: bool,
     /// Prints one JSON object instead of lines
     #[arg(long)]
     json: bool,
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let result = if arguments.faults {
+        run_faults(&arguments)
+    } else {
+        run(&arguments)
+    };
+    match result {
         Ok(code) => code,
         Err(error) => {
             eprintln!("bench-writes: {error:#}");
@@ -86,6 +99,28 @@ fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     for (name, figures) in all.iter().filter(|_| !arguments.json) {
         println!("{}", figures.sentence(name));
+    }
+    Ok(if all.iter().all(|(_, figures)| figures.is_good()) {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
+}
+
+/// Lets the disk fail under each kind that the daemon keeps.
+fn run_faults(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let vthal = needed_beside("vthal")?;
+    let mut all = Vec::new();
+    for store in OF_DAEMON {
+        let figures = faults::try_faults(store, &vthal).with_context(|| store.name())?;
+        if !arguments.json {
+            println!("{}", figures.sentence(store.name()));
+        }
+        all.push((store.name(), figures));
+    }
+    if arguments.json {
+        let kinds = all.iter().map(|(name, figures)| figures.json(name));
+        println!("{}", serde_json::json!({ "kinds": kinds.collect::<Vec<_>>() }));
     }
     Ok(if all.iter().all(|(_, figures)| figures.is_good()) {
         ExitCode::SUCCESS

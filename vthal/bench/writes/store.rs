@@ -100,6 +100,12 @@ impl Desk {
         }
     }
 
+    /// Waits until a request is answered; whether it was done.
+    pub(crate) fn wait_for_answer(&mut self, id: u32) -> anyhow::Result<bool> {
+        let answer = self.wait("whether a change was done", |update| answer_to(id, update))?;
+        Ok(answer.is_ok())
+    }
+
     /// Waits until a request is answered, which must not be a refusal.
     pub(crate) fn wait_for_acknowledgement(&mut self, id: u32) -> anyhow::Result<()> {
         let answer = self.wait("whether a change was done", |update| answer_to(id, update))?;

@@ -4,6 +4,7 @@
 //! of the one before, and then sees the last observation again. So a replay needs nothing from before the run.
 
 mod floors;
+mod made_void;
 mod next_run;
 mod runs;
 
@@ -16,18 +17,19 @@ use brain::{
 pub(crate) use floors::FloorNews;
 use floors::Hands;
 use next_run::{LeavingHome, LoadingFloor, NextHome, NextRun};
-use runs::RecordedRun;
 pub(crate) use runs::Recorder;
+use runs::{RecordedRun, cause_of};
 use rvac_api::HomeView;
 
 use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
+use crate::history::BrainAtHome;
 use crate::home_view::{SurfaceSensing, home_view};
 use crate::lacking::{self, Lacking};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
-use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
+use crate::{CoreConfig, FloorHome, Record, RunEnd, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
@@ -237,6 +239,14 @@ impl BrainSession {
             .wrapping_add(map.surface_revision())
     }
 
+    /// The brain, with that revision.
+    pub(crate) fn at_home(&self) -> BrainAtHome<'_> {
+        BrainAtHome {
+            brain: &self.brain,
+            home_revision: self.home_revision(),
+        }
+    }
+
     /// Whether the robot measures what its motors draw.
     pub(crate) fn measures_currents(&self) -> bool {
         self.measures_currents
@@ -285,6 +295,9 @@ impl BrainSession {
                 Some(other) => other == StickPosition::Centred && newest != StickPosition::Centred,
                 None => true,
             });
+        }
+        if made_void::is_stop(&command) {
+            made_void::drop_what_stops_enclose(&mut self.waiting);
         }
         self.waiting.push(command);
     }
@@ -416,25 +429,6 @@ impl BrainSession {
             BehaviorState::Idle | BehaviorState::Docked | BehaviorState::Disconnected
         );
         at_rest && !status.resumable
-    }
-}
-
-/// Why a run begins with a command; `None` for a command that begins none.
-fn cause_of(command: &Command) -> Option<RunCause> {
-    match command {
-        Command::Edit(_) => None,
-        Command::Job(command) => match command {
-            JobCommand::Clean { .. }
-            | JobCommand::CleanParts { .. }
-            | JobCommand::Spot
-            | JobCommand::Dock => Some(RunCause::Job),
-            JobCommand::Manual { .. } => Some(RunCause::Manual),
-            JobCommand::Pause
-            | JobCommand::Resume
-            | JobCommand::Stop
-            | JobCommand::ManualEnd
-            | JobCommand::ClearError => None,
-        },
     }
 }
 

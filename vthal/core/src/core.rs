@@ -11,7 +11,7 @@ mod thinking;
 use rvac_api::{LogLevel, Topic};
 
 use crate::brain_session::{BrainSession, Recorder};
-use crate::desk::audience::{Asking, Audience};
+use crate::desk::audience::Audience;
 use crate::desk::button_desk::ButtonDesk;
 use crate::desk::calibration::CalibrationDesk;
 use crate::desk::checkpoints::{CheckpointClock, checkpoint_without_job};
@@ -23,12 +23,10 @@ use crate::desk::health::HealthDesk;
 use crate::desk::history::HistoryDesk;
 use crate::desk::home::HomeDesk;
 use crate::desk::input_desk::InputDesk;
-use crate::desk::jobs::estimate;
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
 use crate::desk::link_loan::LinkLoan;
-use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
@@ -264,7 +262,7 @@ impl Core {
         self.link.release(&mut teller);
         teller.log(LogLevel::Info, LogSource::Vthal, "ends: wheels stop".to_owned());
         if let Some(brain_session) = &mut self.brain_session {
-            let over = self.history.shut_down(now_us, brain_session.brain());
+            let over = self.history.shut_down(now_us, brain_session.at_home());
             self.history.keep(over, brain_session.floor(), outputs);
             if self.config.checkpoints == Checkpoints::On {
                 outputs.checkpoint = Some(checkpoint_without_job(brain_session));
@@ -309,13 +307,11 @@ impl Core {
         self.make_estimate(now_us, outputs);
     }
 
-    /// At most one, so that whatever has come meanwhile is served before the next.
+    /// At most a step of one, so that whatever has come meanwhile is served before the next.
     fn make_estimate(&mut self, now_us: u64, outputs: &mut Outputs) {
-        let Some(Asking { asker, request }) = self.estimates.next(now_us) else {
-            return;
-        };
-        let answer = estimate(asker.id, &request, self.brain_session.as_ref()).map(Reply::from);
-        self.teller(now_us, outputs).answer(asker, answer);
+        if let Some((asker, answer)) = self.estimates.go_on(now_us, self.brain_session.as_ref()) {
+            self.teller(now_us, outputs).answer(asker, answer);
+        }
     }
 
     /// Tells followers, the recording and the disk what is due.

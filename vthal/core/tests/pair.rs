@@ -408,6 +408,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
     assert_eq!(pair.ask(ANNA, elsewhere).as_deref(), Some("no-such-room"));
     let estimate = |pair: &mut Pair, part| {
         assert_eq!(pair.ask(ANNA, RequestBody::Estimate(clean(vec![part], 1))), None);
+        pair.run_ms(500);
         let told = pair.updates.iter().rev().find_map(|update| match update {
             Update::JobEstimate(found) => Some(found.time_s),
             _ => None,
@@ -629,6 +630,46 @@ fn a_stop_that_got_lost_is_repeated_until_the_robot_knows_of_it() {
         pair.run_ms(100);
     }
     assert_eq!(pair.last_drive().1, 0.2, "driving arms the robot again");
+}
+
+#[test]
+fn stops_without_end_do_not_fill_the_line_and_one_after_a_command_goes_out_at_once() {
+    let mut pair = Pair::new();
+    let stops = |pair: &Pair| {
+        let all = pair.commands.iter();
+        all.filter(|(_, command)| *command == Command::Stop).count()
+    };
+    for press in 1..=3 {
+        pair.drive(ANNA, 0.0);
+        pair.run_ms(50);
+        pair.push(ANNA, 0.2);
+        pair.run_ms(100);
+        assert_eq!(pair.last_drive().1, 0.2);
+        let before = stops(&pair);
+        for _ in 0..1000 {
+            assert_eq!(pair.ask(BERT, RequestBody::Stop), None, "each is answered");
+        }
+        pair.run_ms(5);
+        let sent = stops(&pair) - before;
+        assert!((1..=3).contains(&sent), "time {press}: {sent} were sent");
+    }
+}
+
+/// Commands wait for the next step of the brain, or until the home of the next run is ready: what Stop makes void does not wait.
+#[test]
+fn starts_and_stops_without_end_are_not_all_carried_out_in_one_step() {
+    let mut pair = on_the_dock();
+    for _ in 0..200 {
+        assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+        assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    }
+    assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+    pair.run_ms(2_000);
+    assert_eq!(pair.core.status().state, "docked");
+    let beeps = pair.commands.iter();
+    let beeps = beeps.filter(|(_, command)| matches!(command, Command::Beep(_)));
+    let beeps = beeps.count();
+    assert!(beeps < 20, "{beeps} beeps");
 }
 
 #[test]
@@ -1622,15 +1663,16 @@ fn estimates_wait_for_their_turn_and_stop_does_not() {
     let refused = answers
         .iter()
         .filter(|answer| answer.as_deref() == Some("too-many-estimates"));
-    assert_eq!(refused.count(), 24, "two at once, four wait");
+    assert_eq!(refused.count(), 25, "one is being made, four wait");
     let made = |pair: &Pair| {
         let is_estimate = |update: &&Update| matches!(update, Update::JobEstimate(_));
         pair.updates.iter().filter(is_estimate).count()
     };
-    assert_eq!(made(&pair), 2);
+    assert_eq!(made(&pair), 0, "each is made in steps");
     assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
-    pair.run_ms(2_000);
-    assert_eq!(made(&pair), 6, "all that were taken are answered");
+    assert_eq!(made(&pair), 0, "Stop does not wait for them");
+    pair.run_ms(3_000);
+    assert_eq!(made(&pair), 5, "all that were taken are answered");
 }
 
 fn dock_at(x: f64, y: f64) -> RequestBody {
@@ -1841,6 +1883,7 @@ fn an_estimate_is_made_at_rest_and_a_part_is_cleaned() {
         pair.ask(ANNA, RequestBody::Estimate(clean(vec![zone()], 2))),
         None
     );
+    pair.run_ms(200);
     let found = pair.updates.iter().find_map(|update| match update {
         Update::JobEstimate(found) => Some(*found),
         _ => None,

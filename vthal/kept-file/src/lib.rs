@@ -46,14 +46,31 @@ pub fn replace_secret(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn put(path: &Path, fresh: &Path, mut file: File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.sync_all()?;
-    if path.exists() {
-        fs::rename(path, beside(path, "old"))?;
+    let old = beside(path, "old");
+    let has_old = path.exists();
+    if has_old {
+        fs::rename(path, &old)?;
     }
-    fs::rename(fresh, path)?;
-    if let Some(folder) = path.parent() {
-        File::open(folder)?.sync_all()?;
+    let result = fs::rename(fresh, path).and_then(|()| sync_folder_of(path));
+    if result.is_err() {
+        take_back(path, has_old.then_some(&old));
     }
-    Ok(())
+    result
+}
+
+fn sync_folder_of(path: &Path) -> io::Result<()> {
+    match path.parent() {
+        Some(folder) => File::open(folder)?.sync_all(),
+        None => Ok(()),
+    }
+}
+
+/// What is told as not kept must not be there after the next start. On a disk that goes on failing nothing more can be done about it.
+fn take_back(path: &Path, old: Option<&PathBuf>) {
+    match old {
+        Some(old) => fs::rename(old, path).ok(),
+        None => fs::remove_file(path).ok(),
+    };
 }
 
 /// No file that is kept is longer. Whoever puts an endless device in its place gets an answer.

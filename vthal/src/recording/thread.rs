@@ -1,6 +1,8 @@
 //! The thread that writes recordings, so that a slow disk never delays a wheel.
 
 use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
@@ -11,6 +13,8 @@ use super::{Library, RecordError, RunFile};
 
 /// Records that may wait for the disk: some ten seconds of a run.
 const WAITING_MAX: usize = 4096;
+/// Beginnings of runs among them: each has a whole home with it.
+const BEGINNINGS_MAX: usize = 2;
 /// What was recorded longer ago than this is in the file.
 const FLUSH_AFTER: Duration = Duration::from_secs(1);
 
@@ -19,6 +23,10 @@ const FLUSH_AFTER: Duration = Duration::from_secs(1);
 pub struct RecorderHandle {
     records: Option<SyncSender<Record>>,
     thread: Option<JoinHandle<()>>,
+    /// Beginnings of runs that wait.
+    beginnings: Arc<AtomicUsize>,
+    /// The beginning of the run that goes on was lost, and so is the rest of it.
+    skips: bool,
     lost: u64,
 }
 
@@ -33,6 +41,8 @@ pub fn start(
     opened: impl Fn(u32, String) + Send + 'static,
 ) -> io::Result<RecorderHandle> {
     let (records, queue) = sync_channel(WAITING_MAX);
+    let beginnings = Arc::new(AtomicUsize::new(0));
+    let waiting = Arc::clone(&beginnings);
     let thread = std::thread::Builder::new()
         .name("recorder".to_owned())
         .spawn(move || {
@@ -40,6 +50,7 @@ pub fn start(
                 library,
                 settings,
                 opened: Box::new(opened),
+                beginnings: waiting,
                 run: None,
                 flushed: Instant::now(),
             }
@@ -48,6 +59,8 @@ pub fn start(
     Ok(RecorderHandle {
         records: Some(records),
         thread: Some(thread),
+        beginnings,
+        skips: false,
         lost: 0,
     })
 }
@@ -56,12 +69,30 @@ impl RecorderHandle {
     /// Hands a record over. When the disk is too slow for the queue the record is lost, and the first loss is logged.
     pub fn send(&mut self, record: Record) {
         let Some(records) = &self.records else { return };
-        if let Err(TrySendError::Full(_)) = records.try_send(record) {
-            if self.lost == 0 {
-                tracing::warn!("the disk is too slow for the recording: records are lost");
-            }
-            self.lost += 1;
+        let is_beginning = matches!(record, Record::RunStarted(_));
+        if is_beginning {
+            self.skips = self.beginnings.load(Ordering::Relaxed) >= BEGINNINGS_MAX;
         }
+        if self.skips {
+            return self.lose();
+        }
+        if is_beginning {
+            self.beginnings.fetch_add(1, Ordering::Relaxed);
+        }
+        if let Err(TrySendError::Full(_)) = records.try_send(record) {
+            if is_beginning {
+                self.beginnings.fetch_sub(1, Ordering::Relaxed);
+                self.skips = true;
+            }
+            self.lose();
+        }
+    }
+
+    fn lose(&mut self) {
+        if self.lost == 0 {
+            tracing::warn!("the disk is too slow for the recording: records are lost");
+        }
+        self.lost += 1;
     }
 
     /// Waits until everything is in the file.
@@ -79,6 +110,7 @@ struct Recorder {
     library: Library,
     settings: String,
     opened: Box<dyn Fn(u32, String)>,
+    beginnings: Arc<AtomicUsize>,
     run: Option<RunFile>,
     flushed: Instant,
 }
@@ -87,7 +119,13 @@ impl Recorder {
     fn serve(mut self, queue: &Receiver<Record>) {
         loop {
             let result = match queue.recv_timeout(FLUSH_AFTER) {
-                Ok(record) => self.take(&record).and_then(|()| self.flush_when_due()),
+                Ok(record) => {
+                    let result = self.take(&record).and_then(|()| self.flush_when_due());
+                    if matches!(record, Record::RunStarted(_)) {
+                        self.beginnings.fetch_sub(1, Ordering::Relaxed);
+                    }
+                    result
+                }
                 Err(RecvTimeoutError::Timeout) => self.flush(),
                 Err(RecvTimeoutError::Disconnected) => break,
             };

@@ -11,8 +11,7 @@ use vthal_bench::{Client, LivingRobot, Scratch, SyntheticRobot, next_random, res
 
 use crate::little_memory::{PATIENCE, press_stop, start_in_little_memory};
 
-/// Packets that the robot says, and after so many of them each listens once.
-const PACKETS: usize = 30_000;
+/// After so many packets each the robot listens once.
 const LISTENS_EVERY: usize = 10;
 /// So long what it has said may be on its way at most.
 const LISTENS_FOR: Duration = Duration::from_millis(1);
@@ -71,10 +70,11 @@ fn reports() -> Vec<Value> {
         .collect()
 }
 
-/// Says all that a damaged robot may say; it goes on as a sound one. Gives how many packets a daemon with an open session got, too.
-fn rave(mut robot: SyntheticRobot) -> (SyntheticRobot, usize) {
+/// Says so many packets of all that a damaged robot may say; it goes on as a sound one. Gives how many packets a daemon with an open
+/// session got, too.
+fn rave(mut robot: SyntheticRobot, packets: usize) -> (SyntheticRobot, usize) {
     let (reports, mut state, mut heard) = (reports(), 1, 0);
-    for number in 0..PACKETS {
+    for number in 0..packets {
         heard += usize::from(robot.is_sealed());
         match index(&mut state, 12) {
             0 => robot.report().map(drop),
@@ -93,12 +93,22 @@ fn rave(mut robot: SyntheticRobot) -> (SyntheticRobot, usize) {
 
 #[test]
 fn a_robot_that_raves_ends_nothing_and_serves_again_when_it_is_sound() {
+    raves_for(10_000);
+}
+
+#[test]
+#[ignore = "campaign: 100,000 packets; cargo xtask test --all"]
+fn a_robot_that_raves_for_a_hundred_thousand_packets_ends_nothing() {
+    raves_for(100_000);
+}
+
+fn raves_for(packets: usize) {
     let scratch = Scratch::new().expect("creates");
     let robot =
         SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::ALL, 1).expect("opens a terminal");
     let mut daemon = start_in_little_memory(&scratch);
     let mut honest = Client::watching(&scratch.join("vthal.sock"), r#"["status"]"#).expect("connects");
-    let raving = std::thread::spawn(move || rave(robot));
+    let raving = std::thread::spawn(move || rave(robot, packets));
     let mut slowest = Duration::ZERO;
     for id in 1.. {
         honest.send(r#"{"c":"start"}"#).expect("sends");
@@ -115,7 +125,7 @@ fn a_robot_that_raves_ends_nothing_and_serves_again_when_it_is_sound() {
     );
     let (robot, heard) = raving.join().expect("it said all");
     assert!(
-        heard > PACKETS / 2,
+        heard > packets / 2,
         "few packets had the seal of a session: {heard}"
     );
     let _robot = LivingRobot::new(robot);

@@ -16,9 +16,9 @@ use rvac_api::{
     RunRecord, Status, TrackPose,
 };
 use serde_json::{Value, json};
-use vthal::recording::{Part, RunFile, Whole, track};
+use vthal::recording::{Library, LibraryLimits, Part, RunFile, Whole, track};
 use vthal_bench::Scratch;
-use vthal_core::{Direction, Record, RunCause, RunStart};
+use vthal_core::{Direction, Record, RunCause, RunEnd, RunStart};
 
 /// Host time of the run's begin.
 const BEGIN_US: u64 = 8_008_291;
@@ -565,4 +565,36 @@ fn a_part_that_was_cut_keeps_what_it_has_and_the_next_one_comes_after_it() {
     assert_eq!(found.values().map(Vec::len).sum::<usize>(), 2 * count);
     let newest = found.values().map(|all| all[all.len() / 2 - 1].0).max();
     assert_eq!(found["/run"][1].0, newest.expect("has messages") + 1_000_000);
+}
+
+/// Each beginning has a whole home with it: whoever starts and stops without end must not fill the memory while the disk is slow.
+#[test]
+fn runs_that_begin_faster_than_the_disk_takes_them_are_not_recorded() {
+    let scratch = Scratch::new().expect("creates");
+    let limits = LibraryLimits {
+        files_max: 50,
+        bytes_max: 1 << 20,
+    };
+    let library = Library::open(&scratch.join("runs"), limits).expect("opens");
+    let (opened, names) = std::sync::mpsc::channel();
+    let (go_on, may_go_on) = std::sync::mpsc::channel::<()>();
+    let tell = move |run, _name| {
+        opened.send(run).expect("the test listens");
+        // The first time it waits until all are sent; later nobody sends any more.
+        may_go_on.recv().ok();
+    };
+    let mut recorder = vthal::recording::start(library, String::new(), tell).expect("starts");
+    for run in 1..=100 {
+        recorder.send(Record::RunStarted(Box::new(RunStart { run, ..start() })));
+        recorder.send(Record::RunEnded {
+            time_us: BEGIN_US,
+            end: RunEnd::Finished,
+        });
+        if run == 1 {
+            assert_eq!(names.recv(), Ok(1));
+        }
+    }
+    drop(go_on);
+    recorder.finish();
+    assert_eq!(names.try_iter().collect::<Vec<u32>>(), [2]);
 }

@@ -80,10 +80,16 @@ pub(super) fn kill(extent: Extent) -> Result {
     check(&mut command)
 }
 
-/// Nothing acknowledged is lost when what keeps it is killed while it writes.
+/// Nothing acknowledged is lost when what keeps it is killed while it writes, or when its disk fails.
 pub(super) fn writes(extent: Extent) -> Result {
     workspace::build(&["vthal", "panel-server", "bench-writes"], Profile::Dev)?;
-    let mut command = started("bench-writes");
-    command.args(["--kills", extent.pick("100", "2000", "100000")]);
-    check(&mut command)
+    let mut kills = started("bench-writes");
+    kills.args(["--kills", extent.pick("100", "2000", "100000")]);
+    let mut commands = vec![kills];
+    if extent.has_campaigns() {
+        let mut faults = started("bench-writes");
+        faults.arg("--faults");
+        commands.push(faults);
+    }
+    checks(&mut commands)
 }

@@ -159,7 +159,7 @@ pub(super) const STAGES: [Stage; 21] = [
     },
     Stage {
         name: "writes",
-        does: "nothing acknowledged is lost when what keeps it is killed while it writes",
+        does: "nothing acknowledged is lost when what keeps it is killed while it writes, or its disk fails",
         from: Extent::All,
         company: Company::Nothing,
         run: campaigns::writes,

@@ -1,7 +1,7 @@
 //! The map's view of the home.
 
 use super::Map;
-use crate::mapping::occupancy_grid::Flag;
+use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
 use crate::mapping::walls::walls;
@@ -14,6 +14,24 @@ use crate::model::gradual::{StepBudget, at_once};
 use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
+
+/// The pose uncertainty at which cells were seen.
+#[derive(Debug)]
+pub(crate) struct Sigmas(OccupancyGrid);
+
+impl Sigmas {
+    /// As [`Map::sigma_m`].
+    pub(crate) fn at_m(&self, cell: Cell) -> Option<f64> {
+        sigma_m(&self.0, cell)
+    }
+}
+
+fn sigma_m(grid: &OccupancyGrid, cell: Cell) -> Option<f64> {
+    let evidence = grid.at(cell);
+    evidence
+        .has(Flag::Seen)
+        .then(|| 0.01 * f64::from(evidence.sigma_cm))
+}
 
 impl Map {
     /// Adds an observation at a pose. Observations of a robot that is lost, lifted or without a link are ignored, and so are
@@ -184,10 +202,12 @@ impl Map {
     /// Smallest pose uncertainty at which a cell was seen, metres; `None` if it never was.
     #[must_use]
     pub fn sigma_m(&self, cell: Cell) -> Option<f64> {
-        let evidence = self.home.grid.at(cell);
-        evidence
-            .has(Flag::Seen)
-            .then(|| 0.01 * f64::from(evidence.sigma_cm))
+        sigma_m(&self.home.grid, cell)
+    }
+
+    /// The same as it is now, for work that goes on while the map changes. A copy shares its cells with the map.
+    pub(crate) fn sigmas(&self) -> Sigmas {
+        Sigmas(self.home.grid.clone())
     }
 
     /// Whether the body was in a cell, in this run or an earlier one.

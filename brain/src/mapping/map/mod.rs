@@ -14,6 +14,7 @@ mod room_editing;
 mod saving;
 
 pub use confidence::MapConfidence;
+pub(crate) use known_home::Sigmas;
 pub use loader::{LoadedHome, MapLoader};
 pub use saving::MapWriter;
 

@@ -1,6 +1,6 @@
 //! The borders of runs: what is recorded to one file.
 
-use brain::{Brain, Checkpoint, LoadedHome};
+use brain::{Brain, Checkpoint, Command, JobCommand, LoadedHome};
 
 use super::BrainSession;
 use crate::{Outputs, Record, Recording, RunCause, RunEnd, RunStart};
@@ -134,5 +134,24 @@ impl BrainSession {
         if self.run.take().is_some() {
             recorder.write(|| Record::RunEnded { time_us: now_us, end });
         }
+    }
+}
+
+/// Why a run begins with a command; `None` for a command that begins none.
+pub(super) fn cause_of(command: &Command) -> Option<RunCause> {
+    match command {
+        Command::Edit(_) => None,
+        Command::Job(command) => match command {
+            JobCommand::Clean { .. }
+            | JobCommand::CleanParts { .. }
+            | JobCommand::Spot
+            | JobCommand::Dock => Some(RunCause::Job),
+            JobCommand::Manual { .. } => Some(RunCause::Manual),
+            JobCommand::Pause
+            | JobCommand::Resume
+            | JobCommand::Stop
+            | JobCommand::ManualEnd
+            | JobCommand::ClearError => None,
+        },
     }
 }

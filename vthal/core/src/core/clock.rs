@@ -65,9 +65,9 @@ impl Core {
     fn start_scheduled(&mut self, now_us: u64, entry: &Entry, outputs: &mut Outputs) -> Result<(), Refused> {
         let command = self.readiness().scheduled_command(entry)?;
         let (number, name) = (entry.number(), entry.plan().name.clone());
-        let brain = self.brain_session.as_ref().map(BrainSession::brain);
+        let at_home = self.brain_session.as_ref().map(BrainSession::at_home);
         self.history
-            .order(RunAsker::Schedule { number, name }, &command, brain);
+            .order(RunAsker::Schedule { number, name }, &command, at_home);
         self.command_brain(now_us, command.into(), outputs);
         Ok(())
     }

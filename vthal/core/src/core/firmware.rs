@@ -133,7 +133,7 @@ impl Core {
         let recording = self.config.recording;
         self.keep_learnt(outputs);
         if let Some(mut old) = self.brain_session.take() {
-            let over = self.history.change_robot(now_us, old.brain());
+            let over = self.history.change_robot(now_us, old.at_home());
             old.end_run(now_us, RunEnd::OtherRobot, &mut Recorder::new(recording, outputs));
             self.history.keep(over, None, outputs);
         }
@@ -230,8 +230,8 @@ impl Core {
         self.driver.arbiter.preempt();
         let is_admitted = |brain_session: &BrainSession| brain_session.brain().admit(&command).is_ok();
         if self.brain_session.as_ref().is_some_and(is_admitted) {
-            let brain = self.brain_session.as_ref().map(BrainSession::brain);
-            self.history.order(RunAsker::Button, &command, brain);
+            let at_home = self.brain_session.as_ref().map(BrainSession::at_home);
+            self.history.order(RunAsker::Button, &command, at_home);
             self.command_brain(now_us, command.into(), outputs);
         }
     }

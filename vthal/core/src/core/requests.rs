@@ -188,8 +188,8 @@ impl Core {
             JobRequest::Dock => self.admitted(now_us, asker.client, JobCommand::Dock)?,
         };
         let by = RunAsker::Client(self.audience.clients.name(asker.client));
-        let brain = self.brain_session.as_ref().map(BrainSession::brain);
-        self.history.order(by, &command, brain);
+        let at_home = self.brain_session.as_ref().map(BrainSession::at_home);
+        self.history.order(by, &command, at_home);
         self.command_brain(now_us, command.into(), outputs);
         Ok(Reply::Done)
     }

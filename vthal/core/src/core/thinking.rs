@@ -98,6 +98,7 @@ impl Core {
         let moment = Moment {
             now_us,
             brain: brain_session.brain(),
+            home_revision: brain_session.home_revision(),
             charge: brain_session.observer.observation().battery_charge,
             decisions,
             evidence: &evidence,

@@ -1,12 +1,15 @@
-//! Estimates of jobs wait for their turn: each plans a whole order, which takes tens of milliseconds, and in between stops, the link and
-//! telemetry are served.
+//! Estimates of jobs wait for their turn, and are made in steps: each plans a whole order, which takes tens of milliseconds, and in between
+//! stops, the link and telemetry are served.
 
 use std::collections::VecDeque;
 
 use rvac_api::JobOrder;
 
 use super::audience::{Asker, Asking};
+use super::jobs::EstimatedJob;
+use super::reply::Reply;
 use crate::ClientId;
+use crate::brain_session::BrainSession;
 use crate::refusal::Refusal;
 
 /// Estimates of one client that wait at most.
@@ -15,6 +18,8 @@ const WAITING_MAX: usize = 4;
 const BURST: u32 = 2;
 /// Then one in this time.
 const EVERY_US: u64 = 250_000;
+/// Pause between two steps of one: whatever else comes is served in between.
+const STEP_US: u64 = 2_000;
 
 /// What waits.
 #[derive(Debug, Default)]
@@ -26,6 +31,9 @@ pub(crate) struct EstimateDesk {
     /// Estimates of the present burst, and when one of them is given back.
     spent: u32,
     refill_us: u64,
+    in_progress: Option<(Asker, EstimatedJob)>,
+    /// When a step of that was done last.
+    stepped_us: u64,
 }
 
 impl EstimateDesk {
@@ -46,8 +54,32 @@ impl EstimateDesk {
         Ok(())
     }
 
+    /// Goes on with the present one by a step, or begins with the next one. Gives the answer to one that is done.
+    pub(crate) fn go_on(
+        &mut self,
+        now_us: u64,
+        brain_session: Option<&BrainSession>,
+    ) -> Option<(Asker, Result<Reply, Refusal>)> {
+        let Some((asker, job)) = &mut self.in_progress else {
+            let Asking { asker, request } = self.next(now_us)?;
+            self.stepped_us = now_us;
+            match EstimatedJob::begin(&request, brain_session) {
+                Ok(job) => self.in_progress = Some((asker, job)),
+                Err(refusal) => return Some((asker, Err(refusal))),
+            }
+            return None;
+        };
+        if now_us < self.stepped_us + STEP_US {
+            return None;
+        }
+        self.stepped_us = now_us;
+        let (asker, answer) = (*asker, job.go_on(asker.id, brain_session)?);
+        self.in_progress = None;
+        Some((asker, answer.map(Reply::from)))
+    }
+
     /// The next one, if its turn has come.
-    pub(crate) fn next(&mut self, now_us: u64) -> Option<Asking<JobOrder>> {
+    fn next(&mut self, now_us: u64) -> Option<Asking<JobOrder>> {
         while self.spent > 0 && now_us >= self.refill_us {
             self.spent -= 1;
             self.refill_us += EVERY_US;
@@ -66,8 +98,11 @@ impl EstimateDesk {
         Some(next)
     }
 
-    /// When the next one can be made.
+    /// When there is something to do.
     pub(crate) fn next_wake_us(&self) -> Option<u64> {
+        if self.in_progress.is_some() {
+            return Some(self.stepped_us + STEP_US);
+        }
         let due_us = if self.spent >= BURST { self.refill_us } else { 0 };
         (!self.waiting.is_empty()).then_some(due_us)
     }
@@ -75,6 +110,10 @@ impl EstimateDesk {
     /// A client is gone.
     pub(crate) fn forget(&mut self, client: ClientId) {
         self.waiting.retain(|waiting| waiting.asker.client != client);
+        self.in_progress = self
+            .in_progress
+            .take()
+            .filter(|(asker, _)| asker.client != client);
     }
 }
 

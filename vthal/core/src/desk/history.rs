@@ -8,7 +8,7 @@ use rvac_api::{LogLevel, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Upda
 use super::audience::{Asker, Teller};
 use super::journal::LogSource;
 use super::reply::Reply;
-use crate::history::{Asked, Moment, RunFollower};
+use crate::history::{Asked, BrainAtHome, Moment, RunFollower};
 use crate::refusal::Refusal;
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
 
@@ -75,10 +75,10 @@ impl HistoryDesk {
     }
 
     /// A command to the brain: an order begins a run with the next step.
-    pub(crate) fn order(&mut self, by: RunAsker, command: &JobCommand, brain: Option<&Brain>) {
+    pub(crate) fn order(&mut self, by: RunAsker, command: &JobCommand, at_home: Option<BrainAtHome<'_>>) {
         self.follower.commanded_by(by.clone());
-        if let Some(job) = brain.and_then(|brain| ordered_job(command, brain)) {
-            self.follower.asked(Asked { by, job }, brain);
+        if let Some(job) = at_home.and_then(|at_home| ordered_job(command, at_home.brain)) {
+            self.follower.asked(Asked { by, job }, at_home);
         }
     }
 
@@ -98,13 +98,13 @@ impl HistoryDesk {
     }
 
     /// The daemon ends, and a run with it.
-    pub(crate) fn shut_down(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
-        self.follower.shut_down(now_us, brain)
+    pub(crate) fn shut_down(&mut self, now_us: u64, at_home: BrainAtHome<'_>) -> Option<RunRecord> {
+        self.follower.shut_down(now_us, at_home)
     }
 
     /// Another robot was attached, and a run of the one before is over.
-    pub(crate) fn change_robot(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
-        self.follower.change_robot(now_us, brain)
+    pub(crate) fn change_robot(&mut self, now_us: u64, at_home: BrainAtHome<'_>) -> Option<RunRecord> {
+        self.follower.change_robot(now_us, at_home)
     }
 
     /// Goes on with the run of a checkpoint that the brain has loaded; gives it back if it was over.

@@ -1,6 +1,6 @@
 //! Orders of clients for parts of the home: read, admitted and estimated.
 
-use brain::{Brain, CleaningOrder, JobCommand};
+use brain::{Brain, CleaningOrder, EstimateWork, JobCommand};
 use rvac_api::{JobEstimate, JobOrder, Update};
 
 use super::home::{known_home, with_places};
@@ -31,7 +31,7 @@ pub(crate) fn clean_command(
 /// What an estimate of such a job needs, if the brain could make it now.
 ///
 /// # Errors
-/// As [`estimate`], as far as that can be told without planning.
+/// As [`EstimatedJob::begin`], as far as that can be told without looking at the floor.
 pub(crate) fn estimable<'a>(
     order: &JobOrder,
     brain_session: Option<&'a BrainSession>,
@@ -46,27 +46,48 @@ pub(crate) fn estimable<'a>(
     }
 }
 
-/// What such a job will take. Planning the whole order takes tens of milliseconds, which would delay the control of turning wheels,
-/// so the robot must rest.
-///
-/// # Errors
-/// A job runs, or the brain would refuse the order.
-pub(crate) fn estimate(
-    id: Option<u32>,
-    order: &JobOrder,
-    brain_session: Option<&BrainSession>,
-) -> Result<Update, Refusal> {
-    let (brain, order) = estimable(order, brain_session)?;
-    let found = brain
-        .estimate_order(&order)
-        .map_err(|reason| Refusal::of_order(reason, &order, brain))?;
-    Ok(Update::JobEstimate(JobEstimate {
-        id,
-        floor_m2: found.floor_m2,
-        time_s: found.time_s,
-        charge: found.charge,
-        recharges: found.recharges,
-        share: found.share,
-        share_low: found.share_low,
-    }))
+/// An estimate in the making.
+#[derive(Debug)]
+pub(crate) struct EstimatedJob {
+    order: CleaningOrder,
+    work: EstimateWork,
+}
+
+impl EstimatedJob {
+    /// Begins to find out what such a job will take. Planning the whole order takes tens of milliseconds, so it is done in steps; and the
+    /// robot must rest when it begins.
+    ///
+    /// # Errors
+    /// A job runs, or the brain would refuse the order.
+    pub(crate) fn begin(order: &JobOrder, brain_session: Option<&BrainSession>) -> Result<Self, Refusal> {
+        let (brain, order) = estimable(order, brain_session)?;
+        match brain.begin_estimate(&order) {
+            Ok(work) => Ok(Self { order, work }),
+            Err(reason) => Err(Refusal::of_order(reason, &order, brain)),
+        }
+    }
+
+    /// Does the next step. Must not be called again after it returned what the job takes, or why it cannot be done.
+    pub(crate) fn go_on(
+        &mut self,
+        id: Option<u32>,
+        brain_session: Option<&BrainSession>,
+    ) -> Option<Result<Update, Refusal>> {
+        let found = self.work.go_on()?;
+        let refused = |reason| match brain_session {
+            Some(brain_session) => Refusal::of_order(reason, &self.order, brain_session.brain()),
+            None => Refusal::from(reason),
+        };
+        Some(found.map_err(refused).map(|found| {
+            Update::JobEstimate(JobEstimate {
+                id,
+                floor_m2: found.floor_m2,
+                time_s: found.time_s,
+                charge: found.charge,
+                recharges: found.recharges,
+                share: found.share,
+                share_low: found.share_low,
+            })
+        }))
+    }
 }

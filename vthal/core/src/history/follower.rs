@@ -5,6 +5,7 @@ use rvac_api::{Evidence, RunAsker, RunJob, RunRecord, RunResult};
 
 use super::ending::Ending;
 use super::open_run::OpenRun;
+use super::picture::{BrainAtHome, Painter};
 use crate::schedule::{CLOCK_IS_SET_FROM_S, CLOCK_WAS_SET_S};
 
 /// A run whose job is gone is over after this time: a robot that slips off its dock takes the job up again.
@@ -21,6 +22,7 @@ pub(crate) struct Asked {
 pub(crate) struct Moment<'a> {
     pub(crate) now_us: u64,
     pub(crate) brain: &'a Brain,
+    pub(crate) home_revision: u32,
     pub(crate) charge: Option<f32>,
     pub(crate) decisions: &'a [Decision],
     /// What its sensors reported and what it tried, if it stopped by itself.
@@ -29,6 +31,15 @@ pub(crate) struct Moment<'a> {
     pub(crate) recorded: Option<u32>,
     /// What was commanded is not carried out yet: the run's home is made ready first.
     pub(crate) commands_wait: bool,
+}
+
+impl Moment<'_> {
+    fn at_home(&self) -> BrainAtHome<'_> {
+        BrainAtHome {
+            brain: self.brain,
+            home_revision: self.home_revision,
+        }
+    }
 }
 
 /// What a step brought.
@@ -53,6 +64,7 @@ pub(crate) struct RunFollower {
     /// The newest recording: its number and its name.
     recording: Option<(u32, String)>,
     open: Option<OpenRun>,
+    painter: Painter,
 }
 
 impl RunFollower {
@@ -64,6 +76,7 @@ impl RunFollower {
             hand: None,
             recording: None,
             open: None,
+            painter: Painter::default(),
         }
     }
 
@@ -92,9 +105,9 @@ impl RunFollower {
     }
 
     /// Somebody orders a run, with the next step.
-    pub(crate) fn asked(&mut self, asked: Asked, brain: Option<&Brain>) {
-        if let (Some(open), Some(brain)) = (&mut self.open, brain) {
-            open.draw(brain);
+    pub(crate) fn asked(&mut self, asked: Asked, at_home: Option<BrainAtHome<'_>>) {
+        if let (Some(open), Some(at_home)) = (&mut self.open, at_home) {
+            open.draw(at_home, &mut self.painter);
         }
         self.asked.push(asked);
     }
@@ -160,7 +173,7 @@ impl RunFollower {
         }
         let is_driven = moment.brain.status().state == BehaviorState::Manual;
         if is_driven || moment.now_us >= over_us + OVER_US {
-            step.over.extend(self.close(moment.now_us, moment.brain));
+            step.over.extend(self.close(moment.now_us, moment.at_home()));
         }
         step
     }
@@ -179,24 +192,29 @@ impl RunFollower {
 
     fn end(&mut self, moment: &Moment<'_>, ending: Ending) -> Option<RunRecord> {
         self.open.as_mut()?.end_as(moment.now_us, ending);
-        self.close(moment.now_us, moment.brain)
+        self.close(moment.now_us, moment.at_home())
     }
 
     /// The daemon ends.
-    pub(crate) fn shut_down(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
+    pub(crate) fn shut_down(&mut self, now_us: u64, at_home: BrainAtHome<'_>) -> Option<RunRecord> {
         self.open.as_mut()?.end_as(now_us, Ending::daemon_ended());
-        self.close(now_us, brain)
+        self.close(now_us, at_home)
     }
 
     /// Another robot was attached.
-    pub(crate) fn change_robot(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
-        self.open.as_mut()?.end_as(now_us, Ending::other_robot());
-        self.close(now_us, brain)
+    pub(crate) fn change_robot(&mut self, now_us: u64, at_home: BrainAtHome<'_>) -> Option<RunRecord> {
+        if let Some(open) = &mut self.open {
+            open.end_as(now_us, Ending::other_robot());
+        }
+        let over = self.close(now_us, at_home);
+        self.painter.forget();
+        over
     }
 
-    fn close(&mut self, now_us: u64, brain: &Brain) -> Option<RunRecord> {
+    fn close(&mut self, now_us: u64, at_home: BrainAtHome<'_>) -> Option<RunRecord> {
         let end_s = self.utc_s(now_us);
-        Some(self.open.take()?.close(now_us, (brain, end_s)))
+        let open = self.open.take()?;
+        Some(open.close(now_us, (at_home, end_s), &mut self.painter))
     }
 
     fn utc_s(&self, now_us: u64) -> Option<i64> {

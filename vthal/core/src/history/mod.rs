@@ -13,6 +13,7 @@ mod picture;
 mod tests;
 
 pub(crate) use follower::{Asked, Moment, RunFollower};
+pub(crate) use picture::BrainAtHome;
 
 use rvac_api::{RunJob, RunRecord};
 

@@ -5,7 +5,7 @@ use rvac_api::{Evidence, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecord
 
 use super::ending::{Ending, LastWords, asker_name};
 use super::follower::{Asked, Moment};
-use super::picture;
+use super::picture::{self, BrainAtHome, Painter};
 use crate::diary::sentence;
 use crate::to_api;
 
@@ -163,12 +163,14 @@ impl OpenRun {
     }
 
     /// An order has come that may wipe the map: what the run drew is drawn now.
-    pub(super) fn draw(&mut self, brain: &Brain) {
-        self.picture = Some(self.drawn(brain));
+    pub(super) fn draw(&mut self, at_home: BrainAtHome<'_>, painter: &mut Painter) {
+        if self.picture.is_none() {
+            self.picture = Some(self.drawn(at_home, painter));
+        }
     }
 
-    fn drawn(&self, brain: &Brain) -> RunPicture {
-        picture::of_run(brain, (&self.record.run.job, self.path_from))
+    fn drawn(&self, at_home: BrainAtHome<'_>, painter: &mut Painter) -> RunPicture {
+        painter.of_run(at_home, (&self.record.run.job, self.path_from))
     }
 
     /// Takes in a step of the brain in which the run went on.
@@ -356,15 +358,20 @@ impl OpenRun {
     }
 
     /// The whole record.
-    pub(super) fn close(self, now_us: u64, (brain, end_s): (&Brain, Option<i64>)) -> RunRecord {
-        let mut record = self.so_far(now_us, Some(brain));
+    pub(super) fn close(
+        self,
+        now_us: u64,
+        (at_home, end_s): (BrainAtHome<'_>, Option<i64>),
+        painter: &mut Painter,
+    ) -> RunRecord {
+        let mut record = self.so_far(now_us, Some(at_home.brain));
         let since_s = self
             .over_us
             .map_or(0, |over_us| now_us.saturating_sub(over_us) / 1_000_000);
         record.run.end_s = end_s.map(|end_s| end_s - since_s.cast_signed());
         record.picture = Some(match self.picture {
             Some(picture) => picture,
-            None => self.drawn(brain),
+            None => self.drawn(at_home, painter),
         });
         record
     }

@@ -1,7 +1,7 @@
 //! The map of a run in the types of the interface to clients, of bounded size.
 
 use brain::{Brain, CELL_M, CellKnowledge, Hazard, Map, PathPoint, SweptRun};
-use rvac_api::{RunJob, RunPicture};
+use rvac_api::{HomeView, RunJob, RunPicture};
 
 use crate::home_view::{SurfaceSensing, home_view};
 use crate::to_api;
@@ -15,9 +15,49 @@ const ROWS_MAX: usize = 20_000;
 /// Hazards that are kept at most, the first ones.
 const HAZARDS_MAX: usize = 5_000;
 
-/// The picture of a run that has driven the map's path from this point on.
-pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPicture {
-    let map = brain.map();
+/// A brain, and the revision of what it knows of the home; no two of this daemon's life with one robot are the same.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BrainAtHome<'a> {
+    pub(crate) brain: &'a Brain,
+    pub(crate) home_revision: u32,
+}
+
+/// Draws what runs have left. The home takes milliseconds, so it is drawn once for each revision: whoever orders one job after the other
+/// must not keep everybody else waiting.
+#[derive(Debug, Default)]
+pub(super) struct Painter {
+    home: Option<(u32, HomeView)>,
+}
+
+impl Painter {
+    /// The picture of a run that has driven the map's path from this point on.
+    pub(super) fn of_run(
+        &mut self,
+        at_home: BrainAtHome<'_>,
+        (job, path_from): (&RunJob, usize),
+    ) -> RunPicture {
+        let home = Some(self.home(at_home)).filter(|home| !home.cells.is_empty());
+        RunPicture {
+            home: home.cloned(),
+            ..of_job(at_home.brain.map(), (job, path_from))
+        }
+    }
+
+    /// Another robot, whose revisions begin anew.
+    pub(super) fn forget(&mut self) {
+        self.home = None;
+    }
+
+    fn home(&mut self, BrainAtHome { brain, home_revision }: BrainAtHome<'_>) -> &HomeView {
+        let drawn = self.home.take().filter(|(drawn, _)| *drawn == home_revision);
+        let map = brain.map();
+        let draw = || (home_revision, home_view(map, SurfaceSensing::in_map(map)));
+        &self.home.insert(drawn.unwrap_or_else(draw)).1
+    }
+}
+
+/// All but the home.
+fn of_job(map: &Map, (job, path_from): (&RunJob, usize)) -> RunPicture {
     let part = map.snapshot();
     let path = part
         .path
@@ -31,10 +71,7 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
         RunJob::Dock => &[],
         RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
-    RunPicture {
-        home: Some(home_view(map, SurfaceSensing::in_map(map))).filter(|home| !home.cells.is_empty()),
-        ..drawn(&swept, path, hazards)
-    }
+    drawn(&swept, path, hazards)
 }
 
 /// The picture of a run that was cut short.

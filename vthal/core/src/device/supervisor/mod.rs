@@ -20,6 +20,9 @@ use crate::Direction;
 /// firmware, which the robot ends to the millisecond.
 pub(super) const CLEANER_REPEAT_US: u64 = 300_000;
 
+/// Emergency stops with nothing between them are sent this often at most: as often as our own firmware reports.
+const STOP_AGAIN_US: u64 = 20_000;
+
 /// A robot that has rested for so long is let go, so that it can sleep and charge, and people may push it by hand. A job starts within less
 /// (S24).
 const RELEASE_AFTER_US: u64 = 3_000_000;
@@ -52,6 +55,8 @@ struct Duties {
     cleaners_told_us: Option<u64>,
     /// When a stop was last sent; `None` unless an emergency stop latches.
     stop_sent_us: Option<u64>,
+    /// When an emergency stop was sent, if nothing else was commanded since.
+    only_stopped_us: Option<u64>,
     /// When the wheels were last told to stand after their command had ended.
     stood_us: Option<u64>,
     now_us: u64,
@@ -69,6 +74,7 @@ impl Duties {
             cleaners: CleanerDrive::Off,
             cleaners_told_us: None,
             stop_sent_us: None,
+            only_stopped_us: None,
             stood_us: None,
             now_us,
         }
@@ -79,6 +85,7 @@ impl Duties {
         self.dead_man.forget();
         self.cleaners = CleanerDrive::Off;
         self.cleaners_told_us = None;
+        self.only_stopped_us = None;
     }
 }
 
@@ -231,6 +238,9 @@ impl Supervisor {
     /// Why not; nothing was sent then.
     pub fn command(&mut self, command: DeviceCommand, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         self.duties.now_us = io.now_us;
+        if command != DeviceCommand::EmergencyStop {
+            self.duties.only_stopped_us = None;
+        }
         match command {
             DeviceCommand::EmergencyStop => {
                 self.emergency_stop(io);
@@ -263,6 +273,7 @@ impl Supervisor {
     /// # Errors
     /// Why not; nothing was sent then.
     pub fn raw(&mut self, text: &str, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
+        self.duties.only_stopped_us = None;
         self.device.raw(text, io)
     }
 
@@ -274,9 +285,16 @@ impl Supervisor {
         self.device.release(io);
     }
 
+    /// Whoever presses Stop without end must not fill the line: everything else would wait behind it. A stop that is lost is repeated
+    /// as soon as telemetry does not know of it.
     fn emergency_stop(&mut self, io: &mut DeviceIo<'_>) {
+        let sent_us = self.duties.only_stopped_us;
+        if sent_us.is_some_and(|sent_us| io.now_us < sent_us + STOP_AGAIN_US) {
+            return;
+        }
         self.duties.stop_sent_us = Some(io.now_us);
         self.duties.forget_commands();
+        self.duties.only_stopped_us = Some(io.now_us);
         self.device.stop(io);
     }
 
