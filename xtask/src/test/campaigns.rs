@@ -84,7 +84,7 @@ pub(super) fn kill(extent: Extent) -> Result {
 pub(super) fn writes(extent: Extent) -> Result {
     workspace::build(&["vthal", "panel-server", "bench-writes"], Profile::Dev)?;
     let mut kills = started("bench-writes");
-    kills.args(["--kills", extent.pick("100", "2000", "100000")]);
+    kills.args(["--kills", extent.pick("100", "1000", "100000")]);
     let mut commands = vec![kills];
     if extent.has_campaigns() {
         let mut faults = started("bench-writes");
