@@ -112,7 +112,7 @@ impl Monitor {
     pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
         self.standing.update(pins, drives);
         self.permission.update(now_ms, &self.standing);
-        if !self.permission.armed(now_ms) {
+        if self.permission.rests(now_ms) {
             self.standing.rest();
         }
         self.update_loads(now_ms, pins, drives);

@@ -348,6 +348,18 @@ impl HostPermission {
         now_ms > heard_ms || at_dock
     }
 
+    /// Whether nobody may move the robot, or somebody may from this millisecond on.
+    pub(crate) fn rests(&self, now_ms: u64) -> bool {
+        let Arming {
+            armed,
+            since_ms,
+            off_ms,
+            button_ms,
+            ..
+        } = self.arming;
+        !armed || now_ms <= since_ms + 1 || off_ms.is_some() || button_ms.is_some()
+    }
+
     pub(crate) fn armed(&self, now_ms: u64) -> bool {
         self.in_force(now_ms).any(|arming| arming.lasts(now_ms))
     }

@@ -239,6 +239,30 @@ fn three_resets_in_a_minute_need_a_clear() {
     assert_eq!(scene.pass(1, FORWARD), [Rule::ResetLoop]);
 }
 
+/// It may stand against a wall; S7's ten seconds begin when somebody may move it, also where a button or `stop` was a moment before.
+#[test]
+fn a_bumper_that_is_pressed_at_rest_counts_from_the_arming_on() {
+    for is_stopped in [true, false] {
+        let mut scene = Scene::armed();
+        scene.pins.bumper = true;
+        for _ in 0..45 {
+            scene.drive();
+            scene.pass(200, OFF);
+        }
+        if is_stopped {
+            scene.host(r#"{"c":"stop"}"#);
+            scene.pass(2, OFF);
+            scene.arm(false);
+        }
+        for _ in 0..8 {
+            scene.pass_driven(200, BACKWARD);
+            scene.pass(60, OFF);
+        }
+        let stuck = scene.pass(0, OFF).contains(&Rule::BumperStuck);
+        assert_eq!(stuck, !is_stopped, "stopped in between: {is_stopped}");
+    }
+}
+
 #[test]
 fn each_physical_cause_has_its_reaction_time() {
     let with = |change: fn(&mut Pins)| {

@@ -4,7 +4,8 @@
 // `on` (all later ones as well), or `torn` (it writes half of its bytes before it fails, and all later ones fail as well). Then the name
 // of the change and its path are written to the file `report`.
 //
-// Only what Rust's standard library calls on Linux is here.
+// Only what Rust's standard library calls on Linux is here. It is in C because `open` takes a variable list of arguments, which stable Rust
+// can call and not define.
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::{Sources, SystemZone};
 
 /// Pause between two looks. A change counts when it is seen twice, so it is taken up within twice that time.
-pub const LOOK_EVERY: Duration = Duration::from_secs(15);
+pub const LOOK_EVERY: Duration = Duration::from_secs(4);
 
 /// Follows the zone of a system.
 #[derive(Debug)]

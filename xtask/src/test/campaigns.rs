@@ -25,10 +25,10 @@ pub(super) fn link(extent: Extent) -> Result {
     check(&mut command)
 }
 
-/// Many runs of the logic built for this machine and some of them for the other robot; with the campaigns a few of the real firmware,
-/// too, which take two thousand times as long.
+/// Many runs of the logic built for this machine and some of them for the other robot, and what fails around the Linux board; with the
+/// campaigns a few runs of the real firmware, too, which take two thousand times as long.
 pub(super) fn faults(extent: Extent) -> Result {
-    workspace::build(&["rvac-sim"], Profile::Dev)?;
+    workspace::build(&["rvac-sim", "bench-board"], Profile::Dev)?;
     let run = |words: &[&str]| {
         let mut command = started("rvac-sim");
         command.arg("faults").args(words);
@@ -37,9 +37,12 @@ pub(super) fn faults(extent: Extent) -> Result {
     let seeds = extent.pick("0..50", "0..1000", "0..100000");
     let minutes = extent.pick("2", "2", "10");
     let other_seeds = extent.pick("0..10", "0..100", "0..10000");
+    let mut board = started("bench-board");
+    board.args(["--seeds", extent.pick("46", "1000", "10000")]);
     let mut commands = vec![
         run(&["--seeds", seeds, "--minutes", minutes]),
         run(&["--robot", "relax", "--seeds", other_seeds, "--minutes", "2"]),
+        board,
     ];
     if extent.has_campaigns() {
         let seeds = extent.pick("", "0..4", "0..100");

@@ -38,7 +38,7 @@ pub enum ZoneFault {
 }
 
 /// A change is taken up within this time, milliseconds.
-const CHANGE_MS: u64 = 60_000;
+const CHANGE_MS: u64 = 10_000;
 
 /// Zones that homes are in.
 const ZONES: [&str; 5] = [
