@@ -25,8 +25,13 @@ pub(crate) fn free_side(situation: &Situation<'_>) -> Option<TurnSide> {
     }
 }
 
+/// Whether the robot may still turn away: from an edge it backs meanwhile.
+fn has_room(situation: &Situation<'_>) -> bool {
+    !situation.at_cliff || situation.reverse_budget_m > 0.0
+}
+
 /// The turn to this side that the firmware allows while something holds the robot.
-pub(crate) fn away_motion(side: TurnSide, situation: &Situation<'_>) -> Motion {
+fn away_motion(side: TurnSide, situation: &Situation<'_>) -> Motion {
     if situation.at_cliff {
         let speed_m_per_s = -0.5 * CHASSIS.back_at_cliff_m_per_s;
         Motion::Drive {
@@ -58,7 +63,7 @@ impl TurnFree {
     /// Away from what holds the robot on one side; `None` where that leads nowhere.
     pub(crate) fn of(situation: &Situation<'_>) -> Option<Self> {
         let side = free_side(situation)?;
-        (!situation.at_cliff || situation.reverse_budget_m > 0.0).then_some(Self {
+        has_room(situation).then_some(Self {
             side,
             left_rad: TURN_FREE.turn_max_rad,
             left_s: TURN_FREE.time_max_s,
@@ -72,9 +77,8 @@ impl TurnFree {
         if situation.is_free() {
             return ManoeuvreStep::Arrived;
         }
-        let has_room = !situation.at_cliff || situation.reverse_budget_m > 0.0;
         let is_blocked = free_side(situation).is_some_and(|side| side != self.side);
-        if self.left_rad <= 0.0 || self.left_s <= 0.0 || !has_room || is_blocked {
+        if self.left_rad <= 0.0 || self.left_s <= 0.0 || !has_room(situation) || is_blocked {
             return ManoeuvreStep::Aborted;
         }
         ManoeuvreStep::Going(away_motion(self.side, situation))

@@ -624,9 +624,8 @@ fn a_job_that_finds_its_floor_shut_off_is_not_finished() {
     assert_eq!(stage.brain.status().reason, Reason::VirtualWallInTheWay);
 }
 
-/// A zone around the working robot: out of it on the shortest way, then on with the job.
-#[test]
-fn a_zone_drawn_around_the_robot_leads_it_out_first() {
+/// A robot that has cleaned its home for half a minute.
+fn half_a_minute_at_work() -> Stage {
     let mut stage = Stage::new();
     let order = CleaningOrder::default();
     run(
@@ -635,6 +634,13 @@ fn a_zone_drawn_around_the_robot_leads_it_out_first() {
         Some(JobCommand::CleanParts { order }),
         30.0,
     );
+    stage
+}
+
+/// A zone around the working robot: out of it on the shortest way, then on with the job.
+#[test]
+fn a_zone_drawn_around_the_robot_leads_it_out_first() {
+    let mut stage = half_a_minute_at_work();
     let here = (stage.world.pose.x_m, stage.world.pose.y_m);
     // The nearest edge lies 0.6 m to the right; elsewhere it is farther.
     let (low, high) = ((here.0 - 0.9, here.1 - 0.9), (here.0 + 0.6, here.1 + 0.9));
@@ -691,14 +697,7 @@ fn a_robot_that_wakes_in_a_forbidden_zone_leaves_it_and_cleans_the_rest() {
 /// A virtual wall is drawn through the working robot: it has a side of it afterwards, and goes on there.
 #[test]
 fn a_virtual_wall_drawn_through_the_robot_does_not_end_its_job() {
-    let mut stage = Stage::new();
-    let order = CleaningOrder::default();
-    run(
-        &mut stage.world,
-        &mut stage.brain,
-        Some(JobCommand::CleanParts { order }),
-        30.0,
-    );
+    let mut stage = half_a_minute_at_work();
     let (x_m, y_m) = (stage.world.pose.x_m, stage.world.pose.y_m);
     forbid(&mut stage, wall((x_m - 0.5, y_m), (x_m + 0.5, y_m)));
     inside_m_until_idle(&mut stage, &zone((0.0, 0.0), (6.1, 4.0)));

@@ -133,13 +133,13 @@ impl Behavior {
             GYRO_SETTLING.mapping_sigma_rad_per_s
         };
         let Some(job) = &mut self.job else { return false };
-        if situation.touching && !self.facts.docked && job.figures.path_m == 0.0 {
-            job.moves_before_rest_m = GYRO_SETTLING.backed_max_m;
+        if situation.touching && !self.facts.docked {
+            if job.figures.path_m == 0.0 {
+                job.moves_before_rest_m = GYRO_SETTLING.backed_max_m;
+            }
+            return false;
         }
-        let has_not_moved = job.figures.path_m <= job.moves_before_rest_m;
-        let may_rest = !situation.touching || self.facts.docked;
-        has_not_moved
-            && may_rest
+        job.figures.path_m <= job.moves_before_rest_m
             && job.figures.time_s < GYRO_SETTLING.wait_max_s
             && situation
                 .gyro_bias_sigma_rad_per_s

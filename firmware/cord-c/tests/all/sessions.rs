@@ -121,6 +121,14 @@ struct Recorder<C> {
 }
 
 impl<C: SimulatedCord> Recorder<C> {
+    fn new(cord: C) -> Self {
+        Self {
+            bench: SessionBench::new(cord),
+            account: Account::default(),
+            ms: 0,
+        }
+    }
+
     fn run(&mut self, ms: u32) {
         for _ in 0..ms {
             self.ms += 1;
@@ -179,11 +187,7 @@ impl<C: SimulatedCord> Recorder<C> {
 }
 
 fn account(cord: impl SimulatedCord, legs: &[Leg]) -> Account {
-    let mut recorder = Recorder {
-        bench: SessionBench::new(cord),
-        account: Account::default(),
-        ms: 0,
-    };
+    let mut recorder = Recorder::new(cord);
     recorder.run(START_MS);
     assert!(recorder.bench.is_described, "no session");
     for leg in legs {
@@ -254,11 +258,7 @@ fn sessions_move_the_same_motors_at_the_same_times() {
 #[test]
 fn a_bumper_that_is_pressed_at_rest_is_not_stuck() {
     fn leaned(cord: impl SimulatedCord) -> Account {
-        let mut recorder = Recorder {
-            bench: SessionBench::new(cord),
-            account: Account::default(),
-            ms: 0,
-        };
+        let mut recorder = Recorder::new(cord);
         recorder.run(START_MS);
         recorder.bench.senses.bumpers[0] = true;
         recorder.run(30_000);
@@ -285,11 +285,7 @@ fn a_bumper_that_is_pressed_at_rest_is_not_stuck() {
 #[test]
 fn what_is_typed_moves_the_same_motors_at_the_same_times() {
     fn typed(cord: impl SimulatedCord) -> Account {
-        let mut recorder = Recorder {
-            bench: SessionBench::new(cord),
-            account: Account::default(),
-            ms: 0,
-        };
+        let mut recorder = Recorder::new(cord);
         recorder.bench.is_silent = true;
         recorder.run(200);
         for text in [
