@@ -7,9 +7,11 @@ mod floor_sensing;
 mod gyro_words;
 mod learning;
 mod map_changes;
+mod map_renewal;
 mod map_words;
 mod planned_path;
 mod situation;
+mod young_map;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
@@ -37,6 +39,7 @@ use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
 use crate::navigation::TaskContext;
 use situation::Parts;
+use young_map::YoungMapSearch;
 
 pub use planned_path::PlannedPath;
 
@@ -57,6 +60,7 @@ pub struct Brain {
     gyro_told: Option<GyroFault>,
     /// Why the map of the home is doubted; once it is, that holds for the run.
     map_doubt: Option<MapDoubt>,
+    young_map_search: YoungMapSearch,
 }
 
 impl Brain {
@@ -81,6 +85,7 @@ impl Brain {
             },
             gyro_told: None,
             map_doubt: None,
+            young_map_search: YoungMapSearch::default(),
         }
     }
 
@@ -154,6 +159,7 @@ impl Brain {
             .localization
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
+        self.search_in_young_map(advance.time_s);
         self.note_encounters(advance.onsets, observation.time_us, &estimate);
         let (mut jobs, mut edits) = (Vec::new(), Vec::new());
         for command in commands {

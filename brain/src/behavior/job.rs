@@ -68,6 +68,15 @@ pub(super) enum Purpose {
     Departure,
 }
 
+/// What a job does to the parts that are ordered.
+fn task(kind: JobKind, order: &CleaningOrder) -> Box<dyn Task> {
+    match kind {
+        JobKind::Clean(strategy) => coverage::strategy(strategy, order),
+        JobKind::Spot => Box::new(Spot::default()),
+        JobKind::Dock => Box::new(Docking::default()),
+    }
+}
+
 impl Job {
     /// For the whole home.
     pub(super) fn new(kind: JobKind, figures: JobFigures) -> Self {
@@ -76,15 +85,10 @@ impl Job {
 
     /// For what is ordered.
     pub(super) fn with_order(kind: JobKind, order: CleaningOrder, figures: JobFigures) -> Self {
-        let task: Box<dyn Task> = match kind {
-            JobKind::Clean(strategy) => coverage::strategy(strategy, &order),
-            JobKind::Spot => Box::new(Spot::default()),
-            JobKind::Dock => Box::new(Docking::default()),
-        };
         Self {
             kind,
+            task: task(kind, &order),
             order,
-            task,
             figures,
             recovery: RecoverySequence::default(),
             pen: Pen::default(),
@@ -103,6 +107,12 @@ impl Job {
             ending: None,
             extended_to_s: 0.0,
         }
+    }
+
+    /// Its task begins anew; what the job has cost so far stays.
+    pub(super) fn begin_task_anew(&mut self) {
+        self.interrupt();
+        self.task = task(self.kind, &self.order);
     }
 
     /// Floor that it keeps out of.

@@ -15,7 +15,7 @@ use super::job::Job;
 use super::{BehaviorState, JobFigures, JobKind, Status};
 use crate::behavior::parameters::ARMING;
 use crate::model::action::{Arm, Motion, Tone};
-use crate::model::command::JobCommand;
+use crate::model::command::{JobCommand, StrategyName};
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyLearner;
 use crate::model::geometry::Point2;
@@ -192,6 +192,22 @@ impl Behavior {
     pub(crate) fn discard_plans(&mut self) {
         for job in self.job.iter_mut().chain(&mut self.put_off) {
             job.discard_plans();
+        }
+    }
+
+    /// Whether it cleans the whole home at this moment, by plans.
+    pub(crate) fn plans_for_whole_home(&self) -> bool {
+        self.mode == Mode::Working
+            && self.job.as_ref().is_some_and(|job| {
+                let strategy = JobKind::Clean(StrategyName::Systematic);
+                job.kind == strategy && job.order.is_for_whole_home() && job.avoided().is_empty()
+            })
+    }
+
+    /// The map begins anew: nothing that the job has planned or counted on the one before holds.
+    pub(crate) fn begin_in_new_map(&mut self) {
+        if let Some(job) = &mut self.job {
+            job.begin_task_anew();
         }
     }
 

@@ -56,6 +56,8 @@ named_enum! {
         Arc => "arc",
         /// Backs off from a contact or a cliff.
         BackOff => "back-off",
+        /// Begins the map of its first run anew: the robot was carried, and does not find its place in it.
+        BeginMapAnew => "begin-map-anew",
         /// Turns away by a random angle.
         Bounce => "bounce",
         /// Cleans by statistics instead of by lanes.

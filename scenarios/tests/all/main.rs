@@ -3,6 +3,7 @@
 mod beacons;
 mod board_faults;
 mod carpets;
+mod carried_young;
 mod determinism;
 mod drawn_requests;
 mod edges;

@@ -28,6 +28,8 @@ pub struct Household {
     host: Option<Host>,
     from_robot: Vec<u8>,
     map_from_plan: Pose,
+    /// Number of the map's frame to which it belongs.
+    frame: u32,
     figures: Collector,
     stuck: StuckWatch,
     pose_source: PoseSource,
@@ -85,6 +87,7 @@ impl Household {
             host: Some(host),
             from_robot: Vec::new(),
             map_from_plan,
+            frame: 1,
             figures: Collector::new(floor),
             stuck: StuckWatch::default(),
             pose_source: PoseSource::Own,
@@ -294,6 +297,7 @@ impl Household {
     }
 
     fn sample(&mut self) {
+        self.follow_frame();
         let driven = Driven::of(&self.robot);
         self.stuck
             .watch(SAMPLE_MS as u32, self.robot.world().truth(), driven);
@@ -321,6 +325,24 @@ impl Household {
                 trace.sample((time_ms, truth), belief.pose.distance_m(truth_in_map), &belief);
             }
         }
+    }
+
+    /// A map that is begun anew has a frame of its own, which the robot's belief fixes at that moment.
+    fn follow_frame(&mut self) {
+        let Some(brain) = self.host.as_ref().and_then(Host::brain) else {
+            return;
+        };
+        let frame = brain.map().frame();
+        if frame == self.frame {
+            return;
+        }
+        let believed = brain.pose();
+        let believed = Pose::new(believed.x_m, believed.y_m, believed.heading_rad);
+        // A brain that was begun since counts from 1 again, in the frame that it was given.
+        if frame > self.frame {
+            self.map_from_plan = believed.then(self.robot.world().truth().pose.inverse());
+        }
+        self.frame = frame;
     }
 
     /// The host dies on the spot: nothing more is sent, and what its driver held is gone.

@@ -76,6 +76,7 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::Wait => "Waited".to_owned(),
         DecisionKind::TurnToPart => "Turned to the next part of the job".to_owned(),
         DecisionKind::KeepNoMap => "Saves no map of this run".to_owned(),
+        DecisionKind::BeginMapAnew => "Began its map anew".to_owned(),
         DecisionKind::EditRefused => "Refused a change of the map".to_owned(),
         DecisionKind::Lap => "Began a lap along the walls".to_owned(),
         DecisionKind::EndLap => "Ended its lap along the walls".to_owned(),
@@ -121,8 +122,7 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::EscapeEdgeLeft => "Looked for a way out, with the edge on its left".to_owned(),
         DecisionKind::EscapeEdgeRight => "Looked for a way out, with the edge on its right".to_owned(),
         DecisionKind::EscapeWait => "Waited for somebody to leave or to open a door".to_owned(),
-        DecisionKind::Free if value < 1.5 => "Came free at the first try".to_owned(),
-        DecisionKind::Free => format!("Came free after {value:.0} tries"),
+        DecisionKind::Free => came_free(value),
         DecisionKind::StateDisconnected => "Lost the connection".to_owned(),
         DecisionKind::StateIdle => "Stood still, without a job".to_owned(),
         DecisionKind::StateStarting => "Announced that it will move".to_owned(),
@@ -134,6 +134,14 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::StatePaused => "Paused".to_owned(),
         DecisionKind::StateStuck => "Gave up and waits for help".to_owned(),
         DecisionKind::StateError => "Stopped with a fault".to_owned(),
+    }
+}
+
+fn came_free(tries: f64) -> String {
+    if tries < 1.5 {
+        "Came free at the first try".to_owned()
+    } else {
+        format!("Came free after {tries:.0} tries")
     }
 }
 

@@ -2,19 +2,32 @@
 
 use super::Localization;
 use super::parameters::PLACING;
+use crate::localization::drift::Drift;
+use crate::localization::lift::Lift;
 use crate::localization::reference_map::ReferenceMap;
+use crate::localization::rssi_fingerprint::RssiFingerprints;
 use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
 use crate::model::config::BrainConfig;
 
 impl Localization {
-    /// The robot was put down somewhere.
-    pub(super) fn relocalize(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        if ReferenceMap::is_trustworthy(map) {
-            return self.lose_in_map(ReferenceMap::of(map), config, seed);
-        }
+    /// The robot was put down somewhere: it searches for its place in the map of its first run.
+    pub(super) fn relocalize(&mut self, map: &Map, config: &BrainConfig, time_us: u64) {
+        self.lose_in_map(ReferenceMap::of(map), config, time_us);
+    }
+
+    /// A map without content begins where the robot is, in a frame of its own. What is known of the gyro holds.
+    pub(crate) fn begin_in_new_map(&mut self, config: &BrainConfig) {
+        self.drift = Drift::default();
+        self.lift = Lift::default();
+        self.fingerprints = RssiFingerprints::default();
+        self.odometry.calibration.interrupt();
         self.start_line_slam(config);
-        self.drift.sigma_m = PLACING.sigma_max;
+    }
+
+    /// Whether a robot can find its place in `map`. It visits all cells, so it is not for every step.
+    pub(crate) fn may_relocalize_in(map: &Map) -> bool {
+        ReferenceMap::is_trustworthy(map)
     }
 
     /// The robot is somewhere in this map.

@@ -345,6 +345,14 @@ impl HomeMap {
         self.annotations.number_after(next);
     }
 
+    /// The numbers that it gives next.
+    pub(super) fn next_numbers(&self) -> NextNumbers {
+        NextNumbers {
+            room: self.rooms.next_id(),
+            ..self.annotations.next_numbers()
+        }
+    }
+
     /// Continues the counters of the replaced home.
     pub(super) fn continue_counters(&mut self, before: &Self) {
         self.revision = before.revision.wrapping_add(1);

@@ -1,6 +1,7 @@
 //! The map's view of the home.
 
-use super::Map;
+use super::{LoadedHome, Map};
+use crate::mapping::home::HomeMap;
 use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
@@ -73,6 +74,21 @@ impl Map {
     /// The map is no reference: this run draws into it what it shows.
     pub(crate) fn draw_afresh(&mut self) {
         self.home.known = None;
+    }
+
+    /// Drops the home: a new one is drawn in a frame of its own. Numbers that were given are not given again.
+    pub(crate) fn begin_anew(&mut self) {
+        let mut blank = HomeMap::new(self.home.sensor_model.body, self.home.sensor_model.sensors);
+        blank.number_after(self.home.next_numbers());
+        self.replace_home(LoadedHome::from(blank));
+        self.start_anew();
+        self.frame += 1;
+    }
+
+    /// Number of the map's frame, from 1. Poses of another frame mean nothing in this one.
+    #[must_use]
+    pub const fn frame(&self) -> u32 {
+        self.frame
     }
 
     /// Knowledge of each cell. Up to two seconds old; [`Self::refresh`] updates it.

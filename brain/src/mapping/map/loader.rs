@@ -38,6 +38,12 @@ impl MapLoader {
     }
 }
 
+impl From<HomeMap> for LoadedHome {
+    fn from(home: HomeMap) -> Self {
+        Self(home)
+    }
+}
+
 impl Map {
     /// Replaces the home by a stored one.
     pub fn load(&mut self, stored: &StoredMap) {

@@ -30,6 +30,7 @@ use redrawing::Redrawing;
 #[derive(Debug)]
 pub struct Map {
     generation: u32,
+    frame: u32,
     swept: CoverageGrid,
     swath: Swath,
     path: Path,
@@ -77,6 +78,7 @@ impl Map {
     pub fn new(body: Body, sensors: SensorLayout) -> Self {
         Self {
             generation: 1,
+            frame: 1,
             swept: CoverageGrid::default(),
             swath: Swath::new(body.swath_m),
             path: Path::default(),

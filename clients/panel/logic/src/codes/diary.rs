@@ -10,6 +10,7 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("wait", "Ootas"),
     ("turn-to-part", "Võttis ette töö järgmise osa"),
     ("keep-no-map", "Ei jäta sellest korrast kaarti alles"),
+    ("begin-map-anew", "Alustas kaarti otsast peale"),
     ("edit-refused", "Keeldus kaardi muudatusest"),
     ("lap", "Alustas ringi piki seinu"),
     ("end-lap", "Lõpetas ringi piki seinu"),
