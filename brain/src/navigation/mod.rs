@@ -2,6 +2,7 @@
 //!
 //! The tasks in the layers above choose the goals. Manoeuvres are short and bounded: each ends by distance, turn or time.
 
+mod arc_beside_edge;
 mod bucket_queue;
 pub(crate) mod caution;
 pub(crate) mod configuration_space;

@@ -2,6 +2,7 @@
 //!
 //! Terms. *Segment*: see [`PathSegment`]. *Offset*: distance of the robot from the segment it follows, left positive.
 
+use super::arc_beside_edge::corner_beside_edge;
 use super::{PathSegment, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
@@ -12,6 +13,8 @@ use crate::navigation::parameters::{CHASSIS, PATH_FOLLOWER};
 pub(crate) struct PathFollower {
     segments: Vec<PathSegment>,
     current: usize,
+    /// The segment that was looked at as it began.
+    begun: Option<usize>,
     /// Remaining turn on the spot, once it has begun.
     turn_left_rad: Option<f64>,
 }
@@ -82,6 +85,7 @@ impl PathFollower {
         Self {
             segments,
             current: 0,
+            begun: None,
             turn_left_rad: None,
         }
     }
@@ -126,6 +130,8 @@ impl PathFollower {
                 if let Some(motion) = self.turn(&segment, situation) {
                     return FollowStep::Going(motion);
                 }
+            } else if self.squares_arc(&segment, situation) {
+                continue;
             } else {
                 let position = SegmentPosition::on(&segment, situation.pose);
                 let left_m = segment.length_m - position.along_m;
@@ -142,6 +148,19 @@ impl PathFollower {
             self.turn_left_rad = None;
         }
         FollowStep::Arrived
+    }
+
+    /// Replaces an arc that begins now by the corner that it rounds, where the floor may end beside it.
+    fn squares_arc(&mut self, arc: &PathSegment, situation: &Situation<'_>) -> bool {
+        if self.begun == Some(self.current) {
+            return false;
+        }
+        self.begun = Some(self.current);
+        let Some(corner) = corner_beside_edge(arc, situation.map.knowledge()) else {
+            return false;
+        };
+        self.segments.splice(self.current..=self.current, corner);
+        true
     }
 
     /// The motion of a turn on the spot; `None` when it is finished.
