@@ -263,6 +263,12 @@ impl Brain {
         self.behavior.status()
     }
 
+    /// Whether a job waits on the dock and goes on by itself, however low the pack still is.
+    #[must_use]
+    pub fn waits_on_dock(&self) -> bool {
+        self.behavior.waits_on_dock()
+    }
+
     /// Identity of the room in which the robot is, if it knows both.
     #[must_use]
     pub fn room(&self) -> Option<u16> {

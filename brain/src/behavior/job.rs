@@ -44,7 +44,8 @@ pub(super) struct Job {
     /// Returning to where it was postponed: brushes stay off over floor that is swept already.
     pub(super) returns: bool,
     pub(super) dock_retry: DockRetry,
-    /// Over floor that nobody asked for, on the way to a part of the order.
+    /// Over floor that nobody asked for, on the way to a part of the order, as far as was known last. A robot that was not sure of its
+    /// place since it started does not know that anybody asked for the floor under it.
     pub(super) crosses: bool,
     /// The task has ended for this reason while something was touched: the job ends once the robot has backed off.
     pub(super) ending: Option<Reason>,
@@ -88,6 +89,7 @@ impl Job {
         Self {
             kind,
             task: task(kind, &order),
+            crosses: !order.is_for_whole_home(),
             order,
             figures,
             recovery: RecoverySequence::default(),
@@ -103,7 +105,6 @@ impl Job {
             brushes: false,
             returns: false,
             dock_retry: DockRetry::default(),
-            crosses: false,
             ending: None,
             extended_to_s: 0.0,
         }
@@ -128,6 +129,7 @@ impl Job {
         self.detour = None;
         self.ending = None;
         self.brushes = false;
+        self.crosses = !self.order.is_for_whole_home();
     }
 
     /// Floor is forbidden that paths may lead over.

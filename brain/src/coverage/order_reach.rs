@@ -223,10 +223,14 @@ fn sweeps_edges_only(order: &CleaningOrder, map: &Map) -> bool {
     }
 }
 
-/// Whether the robot is surely over floor that belongs to no part of the order. Lanes at the edge of a part may lie half a swath outside.
-pub(crate) fn is_off_order(order: &CleaningOrder, situation: &Situation<'_>) -> bool {
-    if order.is_for_whole_home() || !situation.estimate.is_sure() {
-        return false;
+/// Whether the robot is over floor that belongs to no part of the order; `None` while it does not know where it is. Lanes at the edge of
+/// a part may lie half a swath outside.
+pub(crate) fn is_off_order(order: &CleaningOrder, situation: &Situation<'_>) -> Option<bool> {
+    if order.is_for_whole_home() {
+        return Some(false);
+    }
+    if !situation.estimate.is_sure() {
+        return None;
     }
     let here = situation.pose.position();
     let near_m = situation.config.body.swath_m;
@@ -245,7 +249,7 @@ pub(crate) fn is_off_order(order: &CleaningOrder, situation: &Situation<'_>) -> 
         let mut parts = order.parts().iter();
         parts.any(|part| situation.map.rooms().is_in_part(cell, part))
     };
-    !offsets.into_iter().any(is_ordered)
+    Some(!offsets.into_iter().any(is_ordered))
 }
 
 /// Known floor that is ordered and not forbidden.

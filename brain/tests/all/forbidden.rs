@@ -314,3 +314,124 @@ fn the_search_for_the_dock_does_not_cross_a_virtual_wall() {
     }
     assert!(driven_m > 20.0, "it searches: {driven_m} m");
 }
+
+/// An outline as another program or an unsteady finger draws it, in the frame of the map, and what is said.
+type OddOutline = (&'static str, Vec<(f64, f64)>, Result<(), EditError>);
+
+const SQUARE: [(f64, f64); 4] = [(0.5, 1.0), (1.5, 1.0), (1.5, 2.0), (0.5, 2.0)];
+
+fn ring(count: u32) -> Vec<(f64, f64)> {
+    let angle = |number: u32| f64::from(number) / f64::from(count) * std::f64::consts::TAU;
+    let corner = |number| (1.0 + angle(number).cos() / 2.0, 1.5 + angle(number).sin() / 2.0);
+    (0..count).map(corner).collect()
+}
+
+/// What is one piece of floor, however its corners come.
+fn whole_outlines() -> Vec<OddOutline> {
+    let on_edges = (0..60).map(|number| match (number / 15, f64::from(number % 15) / 15.0) {
+        (0, along) => (0.5 + along, 1.0),
+        (1, along) => (1.5, 1.0 + along),
+        (2, along) => (1.5 - along, 2.0),
+        (_, along) => (0.5, 2.0 - along),
+    });
+    let over_edge = vec![(0.5, 1.0), (1.5, 1.0), (1.5, 400.0), (0.5, 400.0)];
+    vec![
+        ("a square", SQUARE.to_vec(), Ok(())),
+        ("clockwise", SQUARE.iter().rev().copied().collect(), Ok(())),
+        (
+            "its first corner twice",
+            [&SQUARE[..], &SQUARE[..1]].concat(),
+            Ok(()),
+        ),
+        ("corners along its edges", on_edges.collect(), Ok(())),
+        ("as many corners as may be", ring(64), Ok(())),
+        ("over the edge of the map", over_edge, Ok(())),
+    ]
+}
+
+fn refused_outlines() -> Vec<OddOutline> {
+    // An outer square, a slit, and a hole that goes round the same way or the other.
+    let inner = [(0.8, 1.3), (1.2, 1.3), (1.2, 1.7), (0.8, 1.7), (0.8, 1.3)];
+    let slit = |inner: &[(f64, f64)]| [&SQUARE[..], &SQUARE[..1], inner].concat();
+    let turned: Vec<(f64, f64)> = inner.iter().rev().copied().collect();
+    let lower = [(0.5, 1.0), (1.0, 1.0), (1.0, 1.5)];
+    let upper = [(1.5, 1.5), (1.5, 2.0), (1.0, 2.0), (1.0, 1.5), (0.5, 1.5)];
+    let huge = vec![(0.0, 0.0), (1e300, 0.0), (1e300, 1e300)];
+    let no_numbers = vec![(0.0, 0.0), (f64::NAN, 0.0), (1.0, f64::INFINITY)];
+    let outside = vec![(20.0, 20.0), (21.0, 20.0), (21.0, 21.0)];
+    vec![
+        ("one corner more", ring(65), Err(EditError::BadZone)),
+        ("ten thousand corners", ring(10_000), Err(EditError::BadZone)),
+        ("a hole", slit(&inner), Err(EditError::ZoneCrosses)),
+        (
+            "a hole the other way round",
+            slit(&turned),
+            Err(EditError::ZoneCrosses),
+        ),
+        (
+            "two squares that touch",
+            [&lower[..], &upper[..]].concat(),
+            Err(EditError::ZoneCrosses),
+        ),
+        ("huge", huge, Err(EditError::BadZone)),
+        ("no numbers", no_numbers, Err(EditError::BadZone)),
+        ("wholly outside", outside, Err(EditError::NoFloorThere)),
+    ]
+}
+
+#[test]
+fn odd_outlines_are_taken_whole_or_refused_by_name() {
+    for (what, corners, expected) in whole_outlines().into_iter().chain(refused_outlines()) {
+        let mut stage = Stage::new();
+        let corners = corners.into_iter().map(|(x_m, y_m)| Point2 { x_m, y_m });
+        let answer = Zone::new(corners.collect()).and_then(|area| {
+            let adding = MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area)?));
+            stage.brain.map().admit(&adding)?;
+            edit(&mut stage.world, &mut stage.brain, adding);
+            run(&mut stage.world, &mut stage.brain, None, 1.0);
+            Ok(area)
+        });
+        let said = answer.as_ref().map(|_| ()).map_err(|error| *error);
+        assert_eq!(said, expected, "{what}");
+        let Ok(area) = answer else { continue };
+        let knowledge = stage.brain.map().knowledge();
+        let is_forbidden = |at: Point2| {
+            let near = |index: &usize| knowledge.cell(*index).middle().distance_m(at) < 0.02;
+            let index = (0..knowledge.values().len()).find(near);
+            index.map(|index| knowledge.values()[index] == CellKnowledge::NoGo)
+        };
+        for (x_m, y_m) in [(1.0, 1.5), (1.3, 1.8), (0.0, 0.0), (2.5, 0.0)] {
+            let at = Point2 { x_m, y_m };
+            assert_eq!(is_forbidden(at), Some(area.contains(at)), "{what} {at:?}");
+        }
+    }
+}
+
+/// One of two zones that overlap is taken away: the other one still forbids all of its floor.
+#[test]
+fn zones_that_overlap_forbid_for_themselves() {
+    let mut stage = Stage::new();
+    for (low, high) in [((1.6, 2.2), (2.4, 3.2)), ((2.0, 2.2), (2.8, 3.2))] {
+        forbid(&mut stage, NoGo::zone(&zone(low, high)).unwrap());
+    }
+    run(&mut stage.world, &mut stage.brain, None, 1.0);
+    let forbidden = |stage: &Stage, x_m: f64| {
+        let knowledge = stage.brain.map().knowledge();
+        let at = Point2 {
+            x_m: x_m - START.x_m,
+            y_m: 2.7 - START.y_m,
+        };
+        let index = (0..knowledge.values().len())
+            .find(|index| knowledge.cell(*index).middle().distance_m(at) < 0.02)
+            .expect("a cell");
+        knowledge.values()[index] == CellKnowledge::NoGo
+    };
+    let seen = |stage: &Stage| [1.8, 2.2, 2.6].map(|x_m| forbidden(stage, x_m));
+    assert_eq!(seen(&stage), [true; 3]);
+    let removing = MapEdit::NoGo(NoGoEdit::Remove { number: 1 });
+    edit(&mut stage.world, &mut stage.brain, removing);
+    run(&mut stage.world, &mut stage.brain, None, 1.0);
+    assert_eq!(seen(&stage), [false, true, true]);
+    let at = Point2 { x_m: 1.0, y_m: 1.0 };
+    assert_eq!(NoGo::wall(at, at), Err(EditError::BadZone), "a wall of no length");
+}

@@ -4,8 +4,8 @@ use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
     BehaviorState, Brain, BrainConfig, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart,
-    JobCommand, JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName,
-    RoomPower, RoomSettings, StoredMap, Zone,
+    Inhibit, JobCommand, JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit,
+    RoomName, RoomPower, RoomSettings, StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
@@ -763,6 +763,83 @@ fn brushes_rest_on_the_way_through_a_room_that_nobody_chose() {
     stage.clean(&order);
     assert!(stage.swept((4.0, 0.5), (5.5, 2.0)) > 0.9);
     assert_eq!(stage.swept((0.2, 0.2), (2.8, 3.8)), 0.0, "nobody asked for this");
+}
+
+impl Stage {
+    /// Square metres of a rectangle of the room over which brushes truly ran.
+    fn brushed_m2(&self, low: (f64, f64), high: (f64, f64)) -> f64 {
+        let columns = (self.world.room.size_m.0 / CELL_M) as usize;
+        let is_inside = |index: usize| {
+            let x_m = (index % columns) as f64 * CELL_M;
+            let y_m = (index / columns) as f64 * CELL_M;
+            (low.0..high.0).contains(&x_m) && (low.1..high.1).contains(&y_m)
+        };
+        let swept = self.world.swept.iter().enumerate();
+        let count = swept
+            .filter(|(index, swept)| **swept && is_inside(*index))
+            .count();
+        count as f64 * CELL_M * CELL_M
+    }
+
+    fn until(&mut self, longest_s: u32, is_so: impl Fn(&Self) -> bool) -> bool {
+        (0..longest_s * 5).any(|_| {
+            run(&mut self.world, &mut self.brain, None, 0.2);
+            is_so(self)
+        })
+    }
+}
+
+/// Whatever happens on the way through a room that nobody chose, and on the way back to the room that somebody did.
+#[test]
+fn brushes_rest_in_a_room_that_nobody_chose_whatever_happens_on_the_way() {
+    let (left, right) = (((0.0, 0.0), (2.7, 4.0)), ((3.3, 0.4), (5.8, 2.4)));
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone(right.0, right.1))], 1).unwrap();
+    let told = |stage: &mut Stage, command: JobCommand| {
+        assert_eq!(stage.brain.admit(&command), Ok(()), "{command:?}");
+        run(&mut stage.world, &mut stage.brain, Some(command), 0.5);
+    };
+    let lifted = |stage: &mut Stage| {
+        for _ in 0..100 {
+            stage.world.observation.time_us += 20_000;
+            stage.world.observation.inhibits.insert(Inhibit::WheelDrop);
+            stage.brain.step(&stage.world.observation, &[]);
+        }
+        run(&mut stage.world, &mut stage.brain, None, 3.0);
+    };
+    let steered = |stage: &mut Stage| {
+        let command = JobCommand::Manual {
+            speed_m_per_s: 0.1,
+            turn_rad_per_s: 0.0,
+            valid_until_us: stage.world.observation.time_us + 400_000,
+            cleaners: false,
+        };
+        told(stage, command);
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        told(stage, JobCommand::ManualEnd);
+    };
+    type Event<'a> = (&'a str, &'a dyn Fn(&mut Stage));
+    let events: [Event<'_>; 3] = [
+        ("paused", &|stage| told(stage, JobCommand::Pause)),
+        ("steered", &|stage| steered(stage)),
+        ("lifted", &|stage| lifted(stage)),
+    ];
+    for at_part in [false, true] {
+        for (what, event) in &events {
+            let mut stage = Stage::new();
+            told(&mut stage, JobCommand::CleanParts { order: order.clone() });
+            let is_there = |stage: &Stage| match at_part {
+                true => stage.brushed_m2(right.0, right.1) > 1.0,
+                false => stage.brain.status().state == BehaviorState::Cleaning,
+            };
+            assert!(stage.until(200, is_there), "{what} {at_part}");
+            event(&mut stage);
+            if stage.brain.admit(&JobCommand::Resume).is_ok() {
+                told(&mut stage, JobCommand::Resume);
+            }
+            stage.until(120, |stage| stage.brain.status().state == BehaviorState::Idle);
+            assert_eq!(stage.brushed_m2(left.0, left.1), 0.0, "{what} {at_part}");
+        }
+    }
 }
 
 #[test]

@@ -158,6 +158,8 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("no-server", Some(Trouble::Link)),
     ("no-robot", Some(Trouble::Link)),
     ("job-runs", None),
+    ("job-paused", None),
+    ("drives-home", None),
     ("recharging", None),
     ("dock-unknown", Some(Trouble::Dock)),
     ("place-vague", None),

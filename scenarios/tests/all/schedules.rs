@@ -1,9 +1,10 @@
 //! Schedules of a whole system on a virtual clock: one starts a job, and those that do not say why.
 
-use brain::StoredMap;
+use brain::{BehaviorState, StoredMap, StrategyName};
 use robot::RobotSettings;
 use rvac_api::{JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduledJob};
 use rvac_sim::daily::{MIDNIGHT_S, daily_job};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
 use scenarios::{household, in_phase, says, scene, settings};
 use vthal_core::schedule::ZoneReading;
@@ -152,6 +153,60 @@ fn a_schedule_starts_a_job_and_others_are_kept_by_name() {
         told("Driven", "refused", Some("driver-busy"))
     );
     assert_eq!(household.robot().monitor().violations(), []);
+}
+
+/// A job is under way when a run falls due: what the robot does about that job is the reason, and the job goes on.
+#[test]
+fn a_run_that_falls_due_during_a_job_says_what_the_robot_does() {
+    let scene = scene("furnished-room", "nominal");
+    let mut household = household(&scene, &settings(1, 0)).with_known_map();
+    household.pass_ms(CONNECT_MS);
+    set_clock(&mut household, 0);
+    household.pass_ms(2_000);
+    for (name, at) in [
+        ("Cleans", "08:00"),
+        ("Paused", "09:00"),
+        ("Goes home", "10:00"),
+        ("Charges", "11:00"),
+        ("Charged", "12:00"),
+    ] {
+        household.ask(RequestBody::AddSchedule(entry(name, at)));
+    }
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    household.pass_ms(20_000);
+    let refused = |household: &mut Household, name: &str, hour: i64, reason: &str| {
+        let before = state(household);
+        meet(household, (hour, 0));
+        assert_eq!(last(household), told(name, "refused", Some(reason)));
+        assert_eq!(state(household), before, "{name}");
+    };
+    refused(&mut household, "Cleans", 8, "job-runs");
+    household.ask(RequestBody::Pause);
+    household.pass_ms(1_000);
+    refused(&mut household, "Paused", 9, "job-paused");
+    household.ask(RequestBody::Resume);
+    household.pass_ms(15_000);
+    // So low that the pack would not let a job start for some minutes on the dock.
+    household.robot_mut().world_mut().set_battery_charge(0.12);
+    let is = |state: BehaviorState| {
+        move |household: &Household| {
+            let brain = household.host().and_then(Host::brain).expect("a brain");
+            brain.status().state == state
+        }
+    };
+    assert!(household.pass_until(900, is(BehaviorState::Docking)).is_some());
+    set_clock(&mut household, 10 * 3_600 + 9);
+    household.pass_ms(2_000);
+    assert_eq!(
+        last(&mut household),
+        told("Goes home", "refused", Some("drives-home"))
+    );
+    assert!(household.pass_until(600, is(BehaviorState::Docked)).is_some());
+    refused(&mut household, "Charges", 11, "recharging");
+    household.robot_mut().world_mut().set_battery_charge(0.5);
+    refused(&mut household, "Charged", 12, "recharging");
+    let decisions = host(&mut household).schedules().decisions;
+    assert_eq!(decisions.len(), 5, "nothing is dropped: {decisions:?}");
 }
 
 #[test]

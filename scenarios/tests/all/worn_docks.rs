@@ -146,6 +146,14 @@ fn a_job_that_was_done_stays_finished_when_a_person_stops_its_way_home() {
 
 /// Sends a robot home to a dock that something is wrong with; gives the seconds until it rests, and what it says.
 fn sent_home(wear: impl Fn(&mut home::World)) -> (u64, BehaviorState, &'static str) {
+    sent_home_while(wear, |_, _| {})
+}
+
+/// The same while something happens: it is told the seconds since the robot was sent.
+fn sent_home_while(
+    wear: impl Fn(&mut home::World),
+    mut happens: impl FnMut(&mut Household, u64),
+) -> (u64, BehaviorState, &'static str) {
     let scene = scene("furnished-room", "nominal");
     let mut household = household(&scene, &settings(2, 0)).with_known_map();
     let before: Pose = off_the_dock(&scene);
@@ -162,7 +170,12 @@ fn sent_home(wear: impl Fn(&mut home::World)) -> (u64, BehaviorState, &'static s
             BehaviorState::Docking | BehaviorState::Starting
         )
     };
-    let seconds = household.pass_until(1_200, rests).unwrap_or(1_200);
+    let mut seconds = 0;
+    while seconds < 1_200 && !rests(&household) {
+        happens(&mut household, seconds);
+        household.pass_ms(1_000);
+        seconds += 1;
+    }
     household.pass_ms(12_000);
     assert_eq!(household.robot().monitor().violations().len(), 0);
     let (state, reason) = told(&household);
@@ -217,4 +230,89 @@ fn a_dock_that_is_driven_to_is_no_warning() {
     let warned = log.iter().filter(|entry| entry.level == LogLevel::Warn);
     let warned: Vec<&LogEntry> = warned.filter(refused).collect();
     assert!(warned.is_empty(), "{warned:?}");
+}
+
+/// What happens to a dock while a robot drives home: the first is what is wrong from the start, the second happens then, and the last is what
+/// the robot may say in the end.
+type Fate = (
+    &'static str,
+    fn(&mut home::World),
+    fn(&mut Household, u64),
+    &'static [(BehaviorState, &'static str)],
+);
+
+const DOCKED: (BehaviorState, &str) = (BehaviorState::Docked, "docked");
+
+const FATES: [Fate; 5] = [
+    (
+        "the mains come back",
+        |world| world.set_dock_power(false),
+        |household, second| {
+            if second == 45 {
+                household.robot_mut().world_mut().set_dock_power(true);
+            }
+        },
+        &[DOCKED],
+    ),
+    (
+        "the mains fail before it touches",
+        |_| {},
+        |household, second| {
+            if second == 8 {
+                household.robot_mut().world_mut().set_dock_power(false);
+            }
+        },
+        &[
+            (BehaviorState::Idle, "no-beam"),
+            (BehaviorState::Idle, "dock-no-contact"),
+        ],
+    ),
+    (
+        "somebody presses Dock again and again",
+        |world| world.set_dock_contacts(DockContacts::Dead),
+        |household, second| {
+            if second % 15 == 14 {
+                household.ask(RequestBody::Dock);
+            }
+        },
+        &[(BehaviorState::Idle, "dock-no-contact")],
+    ),
+    (
+        "somebody carries the dock to another wall",
+        |_| {},
+        |household, second| {
+            if second == 4 {
+                let world = household.robot_mut().world_mut();
+                let dock = world.home().dock().expect("a dock");
+                let (x_m, y_m) = dock.point(0.0, 0.9);
+                world.put_dock(Pose::new(x_m, y_m, dock.heading_rad));
+            }
+        },
+        &[DOCKED, (BehaviorState::Idle, "no-beam")],
+    ),
+    (
+        "somebody pauses it between two tries and lets it go on",
+        |world| world.set_dock_contacts(DockContacts::Dead),
+        |household, second| {
+            if second == 50 {
+                household.ask(RequestBody::Pause);
+                household.pass_ms(2_000);
+                household.ask(RequestBody::Resume);
+                household.pass_ms(4_000);
+            }
+        },
+        &[(BehaviorState::Idle, "dock-no-contact")],
+    ),
+];
+
+#[test]
+fn whatever_happens_to_a_dock_meanwhile_docking_ends_soon_and_says_why() {
+    for (what, wear, happens, ends) in FATES {
+        let (seconds, state, reason) = sent_home_while(wear, happens);
+        assert!(
+            ends.contains(&(state, reason)),
+            "{what}: {state:?} {reason} after {seconds} s"
+        );
+        assert!(seconds < GIVES_UP_S, "{what}: {seconds} s");
+    }
 }

@@ -428,7 +428,7 @@ impl BrainSession {
             status.state,
             BehaviorState::Idle | BehaviorState::Docked | BehaviorState::Disconnected
         );
-        at_rest && !status.resumable
+        at_rest && !status.resumable && !self.brain.waits_on_dock()
     }
 }
 

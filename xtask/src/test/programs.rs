@@ -54,7 +54,8 @@ const LONG_ONLY: [&str; 4] = [
 /// What only `--long` runs.
 const LONG: [&[&str]; 3] = [ALL_ZONES, MILLION_FILES, TEN_THOUSAND_DRAWS];
 
-/// A million files that nobody would write, for every loader of homes.
+/// A million files that nobody would write, for every loader of homes: here all are of whole rooms, and in the usual tests most are of
+/// homes just large enough for the robot.
 const MILLION_FILES: &[&str] = &[
     "test",
     "--release",

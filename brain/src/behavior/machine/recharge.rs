@@ -20,6 +20,11 @@ use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 
 impl Behavior {
+    /// Whether a job waits on the dock, for charge or for what stands in its way.
+    pub(crate) fn waits_on_dock(&self) -> bool {
+        self.mode == Mode::Recharging
+    }
+
     /// Learnt energy use of driving and cleaning.
     pub(crate) fn energy(&self) -> EnergyModel {
         self.energy.model()

@@ -46,7 +46,9 @@ impl Behavior {
         job.figures.time_s += situation.advance.time_s;
         job.figures.path_m += situation.advance.distance_m.abs();
         job.brushes |= !self.facts.touching;
-        job.crosses = coverage::is_off_order(&job.order, situation);
+        if let Some(crosses) = coverage::is_off_order(&job.order, situation) {
+            job.crosses = crosses;
+        }
         job.returns &= situation.map.is_swept(situation.pose.position());
         if situation.advance.onsets.is_held_by_cliff {
             job.edges.note_cliff(self.facts.now_us);

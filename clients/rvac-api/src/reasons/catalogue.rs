@@ -9,6 +9,8 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("no-server", "The robot cannot be reached.", "Check that it is switched on and that this device is on its network; the panel tries again by itself."),
     entry("no-robot", "No robot answers.", "Check its cable and whether it is switched on."),
     entry("job-runs", "A job runs or waits.", "Stop it first: the robot must be at rest."),
+    entry("job-paused", "A job is paused.", "Resume it or stop it."),
+    entry("drives-home", "It is on its way to its dock.", ""),
     entry("recharging", "It waits on the dock for charge, and then goes on.", ""),
     entry("dock-unknown", "Nobody knows where the dock is.", "Put it on its dock once."),
     entry("place-vague", "It does not know its position well enough.", "Nothing needs to be done: it goes on once walls have told it."),

@@ -382,7 +382,7 @@ fn packed_homes_load() {
     let mut zlib = ZlibEncoder::new(Vec::new(), Compression::default());
     zlib.write_all(json.as_bytes()).unwrap();
     let zlib = zlib.finish().unwrap();
-    let picture = png_of(&pixels(), png::ColorType::Grayscale);
+    let picture = png_of(crate::loaders::SIZE, &pixels(), png::ColorType::Grayscale);
     let mut carrier = picture[..picture.len() - 12].to_vec();
     let chunk = [b"ValetudoMap\0\0".as_slice(), &zlib].concat();
     carrier.extend((chunk.len() as u32).to_be_bytes());

@@ -36,8 +36,15 @@ pub(crate) fn pixels() -> Vec<u8> {
     pixels
 }
 
+/// Columns and rows of [`pixels`].
+pub(crate) const SIZE: (usize, usize) = (40, 20);
+
 pub(crate) fn pgm(pixels: &[u8]) -> Vec<u8> {
-    let mut bytes = b"P5\n# made by a test\n40 20\n255\n".to_vec();
+    pgm_of(SIZE, pixels)
+}
+
+pub(crate) fn pgm_of((columns, rows): (usize, usize), pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = format!("P5\n# made by a test\n{columns} {rows}\n255\n").into_bytes();
     bytes.extend(pixels);
     bytes
 }
@@ -49,9 +56,9 @@ fn wide_pgm(pixels: &[u8]) -> Vec<u8> {
     bytes
 }
 
-pub(crate) fn png_of(pixels: &[u8], color: png::ColorType) -> Vec<u8> {
+pub(crate) fn png_of((columns, rows): (usize, usize), pixels: &[u8], color: png::ColorType) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 40, 20);
+    let mut encoder = png::Encoder::new(&mut bytes, columns as u32, rows as u32);
     encoder.set_color(color);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header().expect("the header is valid");
@@ -79,8 +86,8 @@ fn ros_maps_load_from_every_image_format() {
         ("ros-p5.pgm", pgm(&grey)),
         ("ros-16-bit.pgm", wide_pgm(&grey)),
         ("ros-p2.pgm", format!("P2 40 20 255\n{text}").into_bytes()),
-        ("ros-grey.png", png_of(&grey, png::ColorType::Grayscale)),
-        ("ros-rgba.png", png_of(&rgba, png::ColorType::Rgba)),
+        ("ros-grey.png", png_of(SIZE, &grey, png::ColorType::Grayscale)),
+        ("ros-rgba.png", png_of(SIZE, &rgba, png::ColorType::Rgba)),
     ];
     for (name, bytes) in images {
         file(name, &bytes);
@@ -135,15 +142,22 @@ fn ros_options_are_understood() {
 
 const VALETUDO: &str = r#"{"__class":"ValetudoMap","metaData":{"version":2},"size":{"x":5120,"y":5120},"pixelSize":5,
 "layers":[
-{"__class":"MapLayer","type":"floor","pixels":[],"compressedPixels":[100,200,40,100,201,40]},
+{"__class":"MapLayer","type":"floor","pixels":[],"compressedPixels":[100,200,SIDE,100,201,SIDE]},
 {"__class":"MapLayer","type":"segment","metaData":{"segmentId":"1"},"compressedPixels":[ROWS]},
 {"__class":"MapLayer","type":"wall","pixels":[100,200,101,200],"compressedPixels":[]}],
 "entities":[{"__class":"PointMapEntity","type":"charger_location","points":[600,1198],"metaData":{"angle":90}},
 {"__class":"LineMapEntity","type":"virtual_wall","points":[500,1020,700,1020]}]}"#;
 
 pub(crate) fn valetudo() -> String {
-    let rows: Vec<String> = (202..240).map(|row| format!("100,{row},40")).collect();
-    VALETUDO.replace("ROWS", &rows.join(","))
+    valetudo_of(40)
+}
+
+/// A square room of so many pixels.
+pub(crate) fn valetudo_of(side: u32) -> String {
+    let rows: Vec<String> = (202..200 + side).map(|row| format!("100,{row},{side}")).collect();
+    VALETUDO
+        .replace("ROWS", &rows.join(","))
+        .replace("SIDE", &side.to_string())
 }
 
 #[test]
@@ -359,7 +373,7 @@ fn a_file_that_is_too_long_is_not_read() {
 #[test]
 fn mutated_files_are_refused_or_loaded_but_never_panic() {
     file("seed.pgm", &pgm(&pixels()));
-    file("seed.png", &png_of(&pixels(), png::ColorType::Grayscale));
+    file("seed.png", &png_of(SIZE, &pixels(), png::ColorType::Grayscale));
     let plan = format!(
         "{HEAD}{}[[furniture]]\nlegs = [[1.0, 1.0]]\n[[door]]\nfrom = [2.0, 1.0]\nto = [2.0, 2.0]\nstate = \"open\"\n[dock]\nposition = [0.0, 1.5]\nheading-deg = 0.0\n",
         room(3.0, 3.0)
@@ -373,7 +387,7 @@ fn mutated_files_are_refused_or_loaded_but_never_panic() {
             format!("image: mutant.png\n{YAML}").into_bytes(),
         ),
     ];
-    let png = png_of(&pixels(), png::ColorType::Grayscale);
+    let png = png_of(SIZE, &pixels(), png::ColorType::Grayscale);
     let mut random = Pcg::new(2, 2);
     let (mut loaded, mut refused) = (0, 0);
     for (name, seed) in &seeds {

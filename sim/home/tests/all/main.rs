@@ -6,6 +6,7 @@ mod determinism;
 mod foreign_files;
 mod generated;
 mod hostile_files;
+mod hostile_seeds;
 mod loaders;
 mod maps;
 mod odd_things;

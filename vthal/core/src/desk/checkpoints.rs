@@ -87,7 +87,7 @@ pub(crate) fn works(brain_session: &BrainSession) -> bool {
         status.state,
         BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
     );
-    active || status.resumable
+    active || status.resumable || brain_session.brain().waits_on_dock()
 }
 
 /// Pose and map without a job: an orderly end is not an interruption.

@@ -1,6 +1,6 @@
 //! What decides whether a job may start now.
 
-use brain::{JobCommand, JobRefusal, StrategyName};
+use brain::{BehaviorState, JobCommand, JobRefusal, StrategyName};
 use rvac_api::ScheduledJob;
 
 use super::checkpoints::works;
@@ -84,13 +84,7 @@ impl<'a> Readiness<'a> {
     pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<JobCommand, Refused> {
         self.facts.robot?;
         self.facts.schedule?;
-        // Of two entries that are due together the brain has not heard of the first one's job yet.
-        if self
-            .brain_session
-            .is_some_and(|session| works(session) || session.awaits_job())
-        {
-            return Err("job-runs");
-        }
+        self.brain_session.map_or(Ok(()), leaves_room)?;
         self.require_floor_of(entry).map_err(|refusal| refusal.reason)?;
         let command = self
             .command_of(&entry.plan().job)
@@ -137,6 +131,20 @@ impl<'a> Readiness<'a> {
                 title(here)
             ),
         }
+    }
+}
+
+/// # Errors
+/// The job that runs or waits, by what the robot does about it: an owner does another thing about each.
+fn leaves_room(brain_session: &BrainSession) -> Result<(), Refused> {
+    let brain = brain_session.brain();
+    match brain.status().state {
+        BehaviorState::Docking => Err("drives-home"),
+        BehaviorState::Docked if brain.waits_on_dock() => Err("recharging"),
+        BehaviorState::Paused | BehaviorState::Stuck => Err("job-paused"),
+        // Of two entries that are due together the brain has not heard of the first one's job yet.
+        _ if works(brain_session) || brain_session.awaits_job() => Err("job-runs"),
+        _ => Ok(()),
     }
 }
 

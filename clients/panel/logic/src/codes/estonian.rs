@@ -22,6 +22,8 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("no-server", "Robotini ei pääse.", "Kontrolli, kas ta on sisse lülitatud ja see seade tema võrgus; paneel proovib ise uuesti."),
     entry("no-robot", "Ükski robot ei vasta.", "Kontrolli kaablit ja seda, kas robot on sisse lülitatud."),
     entry("job-runs", "Töö käib või ootab.", "Peata see enne: see on võimalik ainult seisva robotiga."),
+    entry("job-paused", "Töö on peatatud.", "Jätka seda või lõpeta see."),
+    entry("drives-home", "Robot on teel dokki.", ""),
     entry("recharging", "Robot laeb dokis akut ja jätkab siis.", ""),
     entry("dock-unknown", "Doki asukoht ei ole teada.", "Pane robot korraks dokki."),
     entry("place-vague", "Robot ei tea oma asukohta piisavalt täpselt.", "Midagi ei ole vaja teha: ta jätkab, kui on seinte järgi asukoha täpsustanud."),

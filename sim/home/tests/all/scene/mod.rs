@@ -53,12 +53,6 @@ pub(crate) fn steps(world: &mut World, milliseconds: u32, actuation: Actuation) 
     }
 }
 
-/// Makes a folder in the folder of test files.
-pub(crate) fn folder_of_files(name: &str) {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(path).expect("the folder of test files takes folders");
-}
-
 /// A file of this test binary.
 pub(crate) fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
