@@ -203,10 +203,13 @@ fn a_run_that_falls_due_during_a_job_says_what_the_robot_does() {
     );
     assert!(household.pass_until(600, is(BehaviorState::Docked)).is_some());
     refused(&mut household, "Charges", 11, "recharging");
-    household.robot_mut().world_mut().set_battery_charge(0.5);
+    household.robot_mut().world_mut().set_charging_speed(20.0);
+    household.pass_ms(120_000);
     refused(&mut household, "Charged", 12, "recharging");
     let decisions = host(&mut household).schedules().decisions;
     assert_eq!(decisions.len(), 5, "nothing is dropped: {decisions:?}");
+    let goes_on = household.pass_until(2 * 3_600, is(BehaviorState::Cleaning));
+    assert!(goes_on.is_some(), "{:?}", state(&household));
 }
 
 #[test]

@@ -141,7 +141,7 @@ fn leaves_room(brain_session: &BrainSession) -> Result<(), Refused> {
     match brain.status().state {
         BehaviorState::Docking => Err("drives-home"),
         BehaviorState::Docked if brain.waits_on_dock() => Err("recharging"),
-        BehaviorState::Paused | BehaviorState::Stuck => Err("job-paused"),
+        BehaviorState::Paused | BehaviorState::Stuck if brain.status().resumable => Err("job-paused"),
         // Of two entries that are due together the brain has not heard of the first one's job yet.
         _ if works(brain_session) || brain_session.awaits_job() => Err("job-runs"),
         _ => Ok(()),
