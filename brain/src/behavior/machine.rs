@@ -195,18 +195,20 @@ impl Behavior {
         }
     }
 
-    /// Whether it cleans the whole home at this moment, by plans.
-    pub(crate) fn plans_for_whole_home(&self) -> bool {
+    /// Whether it cleans the whole home at this moment.
+    pub(crate) fn cleans_whole_home(&self) -> bool {
         self.mode == Mode::Working
             && self.job.as_ref().is_some_and(|job| {
-                let strategy = JobKind::Clean(StrategyName::Systematic);
-                job.kind == strategy && job.order.is_for_whole_home() && job.avoided().is_empty()
+                let cleans = matches!(job.kind, JobKind::Clean(_));
+                cleans && job.order.is_for_whole_home() && job.avoided().is_empty()
             })
     }
 
-    /// The map begins anew: nothing that the job has planned or counted on the one before holds.
+    /// The map begins anew: nothing that the job has planned or counted on the one before holds. Other strategies than the systematic one
+    /// count time and turns, which stay.
     pub(crate) fn begin_in_new_map(&mut self) {
-        if let Some(job) = &mut self.job {
+        let by_map = JobKind::Clean(StrategyName::Systematic);
+        if let Some(job) = self.job.as_mut().filter(|job| job.kind == by_map) {
             job.begin_task_anew();
         }
     }

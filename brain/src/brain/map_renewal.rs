@@ -17,7 +17,7 @@ impl Brain {
         if !self.may_begin_map_anew() {
             return;
         }
-        let is_cleaning = self.behavior.plans_for_whole_home();
+        let is_cleaning = self.behavior.cleans_whole_home();
         let map = &self.map;
         let worth = || MapWorth::of(map.free_m2(), Localization::may_relocalize_in(map));
         if self.young_map_search.is_over_after(time_s, is_cleaning, worth) {
