@@ -3,8 +3,8 @@
 use crate::orders::{START, Stage, forbid, zone};
 use crate::plane::{edit, run};
 use brain::{
-    BehaviorState, CellKnowledge, CleaningOrder, EditError, JobCommand, MapEdit, NoGo, NoGoEdit, Point2,
-    StrategyName, Zone,
+    BehaviorState, Cell, CellKnowledge, CleaningOrder, EditError, JobCommand, MapEdit, NoGo, NoGoEdit,
+    Point2, StrategyName, Zone,
 };
 use std::collections::BTreeMap;
 
@@ -379,6 +379,12 @@ fn refused_outlines() -> Vec<OddOutline> {
     ]
 }
 
+/// Whether the cell at a point of the map is forbidden; `None` = outside of the map.
+fn is_forbidden(stage: &Stage, at: Point2) -> Option<bool> {
+    let known = stage.brain.map().knowledge().get(Cell::under(at));
+    known.map(|kind| *kind == CellKnowledge::NoGo)
+}
+
 #[test]
 fn odd_outlines_are_taken_whole_or_refused_by_name() {
     for (what, corners, expected) in whole_outlines().into_iter().chain(refused_outlines()) {
@@ -394,15 +400,9 @@ fn odd_outlines_are_taken_whole_or_refused_by_name() {
         let said = answer.as_ref().map(|_| ()).map_err(|error| *error);
         assert_eq!(said, expected, "{what}");
         let Ok(area) = answer else { continue };
-        let knowledge = stage.brain.map().knowledge();
-        let is_forbidden = |at: Point2| {
-            let near = |index: &usize| knowledge.cell(*index).middle().distance_m(at) < 0.02;
-            let index = (0..knowledge.values().len()).find(near);
-            index.map(|index| knowledge.values()[index] == CellKnowledge::NoGo)
-        };
         for (x_m, y_m) in [(1.0, 1.5), (1.3, 1.8), (0.0, 0.0), (2.5, 0.0)] {
             let at = Point2 { x_m, y_m };
-            assert_eq!(is_forbidden(at), Some(area.contains(at)), "{what} {at:?}");
+            assert_eq!(is_forbidden(&stage, at), Some(area.contains(at)), "{what} {at:?}");
         }
     }
 }
@@ -416,15 +416,11 @@ fn zones_that_overlap_forbid_for_themselves() {
     }
     run(&mut stage.world, &mut stage.brain, None, 1.0);
     let forbidden = |stage: &Stage, x_m: f64| {
-        let knowledge = stage.brain.map().knowledge();
         let at = Point2 {
             x_m: x_m - START.x_m,
             y_m: 2.7 - START.y_m,
         };
-        let index = (0..knowledge.values().len())
-            .find(|index| knowledge.cell(*index).middle().distance_m(at) < 0.02)
-            .expect("a cell");
-        knowledge.values()[index] == CellKnowledge::NoGo
+        is_forbidden(stage, at).expect("a cell")
     };
     let seen = |stage: &Stage| [1.8, 2.2, 2.6].map(|x_m| forbidden(stage, x_m));
     assert_eq!(seen(&stage), [true; 3]);

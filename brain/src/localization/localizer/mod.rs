@@ -16,6 +16,7 @@ use super::lift::Lift;
 use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
+use super::reference_map::ReferenceMap;
 use super::reverse_budget::ReverseBudget;
 use super::rssi_fingerprint::RssiFingerprints;
 use super::tracker::MotionUpdate;
@@ -135,7 +136,7 @@ impl Localization {
         match &mut self.estimator {
             Estimator::Odometry => None,
             Estimator::LineSlam(_) if self.lift.take_put_down() => {
-                self.relocalize(map, config, time_us);
+                self.lose_in_map(ReferenceMap::of(map), config, time_us);
                 None
             }
             Estimator::LineSlam(_) => self.check_consistency(map, config, time_us),

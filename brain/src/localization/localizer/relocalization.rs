@@ -11,11 +11,6 @@ use crate::mapping::Map;
 use crate::model::config::BrainConfig;
 
 impl Localization {
-    /// The robot was put down somewhere: it searches for its place in the map of its first run.
-    pub(super) fn relocalize(&mut self, map: &Map, config: &BrainConfig, time_us: u64) {
-        self.lose_in_map(ReferenceMap::of(map), config, time_us);
-    }
-
     /// A map without content begins where the robot is, in a frame of its own. What is known of the gyro holds.
     pub(crate) fn begin_in_new_map(&mut self, config: &BrainConfig) {
         self.drift = Drift::default();
