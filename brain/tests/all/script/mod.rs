@@ -45,8 +45,12 @@ pub(crate) struct Stage {
     pub(crate) cleaners: bool,
     /// Way back without a way forward that made it good, in metres.
     pub(crate) backed_m: f64,
-    /// Steps for which a wheel has been hanging.
+    /// Steps for which a wheel has been hanging, or no cliff sensor has seen the floor since the robot was taken off its contacts.
     lifted_steps: u32,
+    /// The contacts opened, and the wheels have not turned since.
+    taken_off_dock: bool,
+    /// The contacts were closed at the last observation.
+    was_docked: bool,
     /// Mean travel of the wheels at the last observation.
     travel_m: f64,
     /// A person drove at the last observation.
@@ -70,6 +74,8 @@ impl Stage {
             cleaners: false,
             backed_m: 0.0,
             lifted_steps: 0,
+            taken_off_dock: false,
+            was_docked: false,
             travel_m: 0.0,
             driven_by_hand: false,
             blocked: false,
@@ -156,7 +162,7 @@ impl Stage {
         let advance_m = travel_m - self.travel_m;
         self.travel_m = travel_m;
         self.backed_m = (self.backed_m - advance_m).max(0.0);
-        self.lifted_steps = if self.observation.wheel_drop && self.observation.link_up {
+        self.lifted_steps = if self.is_held(advance_m) {
             self.lifted_steps + 1
         } else {
             0
@@ -176,6 +182,16 @@ impl Stage {
             self.backed_m,
             self.brain.status()
         );
+    }
+
+    /// Whether somebody seems to hold the robot up: a wheel hangs, or contacts opened under standing wheels and the floor is gone.
+    fn is_held(&mut self, advance_m: f64) -> bool {
+        let seen = &self.observation;
+        let opened = core::mem::replace(&mut self.was_docked, seen.docked);
+        self.taken_off_dock = !seen.docked && advance_m == 0.0 && (opened || self.taken_off_dock);
+        let cliffs = seen.cliffs;
+        let sees_no_floor = cliffs.left && cliffs.middle && cliffs.right;
+        seen.link_up && (seen.wheel_drop || self.taken_off_dock && sees_no_floor)
     }
 
     fn seconds(&mut self, seconds: f64) {
