@@ -5,6 +5,7 @@ use panel_logic::Currency;
 
 use crate::access::{Access, NewcomerView, PairView};
 use crate::actions::Actions;
+use crate::bottom_sheet::SheetHandle;
 use crate::focus::keep_focus;
 use crate::header::Header;
 use crate::language::words;
@@ -34,6 +35,7 @@ pub(crate) fn App() -> impl IntoView {
             <MapView store />
             <div class="side">
                 <div class="sheets">
+                    <SheetHandle />
                     <StatusView store />
                     <NewcomerView entrance=store.entrance />
                     <Tabs store />

@@ -9,6 +9,7 @@ use crate::floor_files::FloorFiles;
 use crate::home_view::rooms_text;
 use crate::language::words;
 use crate::rename_form::RenameForm;
+use crate::row_menu::RowMenu;
 use crate::store::Store;
 
 #[component]
@@ -54,6 +55,7 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
 fn row(store: Store, floor: FloorView, here: Option<u16>, renamed: RwSignal<Option<u16>>) -> impl IntoView {
     let (number, title) = (floor.number, floor_title(words(), &floor));
     let is_here = here == Some(number);
+    let (is_removed, name) = (floor.removed, title.clone());
     let extent = extent_text(&floor);
     let (named, rename_label) = (
         floor.name.clone().unwrap_or_default(),
@@ -101,11 +103,14 @@ fn row(store: Store, floor: FloorView, here: Option<u16>, renamed: RwSignal<Opti
     });
     view! {
         <li>
-            <span class="name">{title}</span>
+            <span class="name">{title.clone()}</span>
             <span class="words">{extent}</span>
             {is_here.then(|| view! { <span class="newest">{words().home.is_here}</span> })}
             <Needs store verb="choose-floor">{choose}</Needs>
-            <Needs store verb=EDITS_HOME>{rename} {remove} {restore}</Needs>
+            <Needs store verb=EDITS_HOME>
+                {restore}
+                {(!is_removed).then(|| view! { <RowMenu of=format!("floor-{number}") name>{rename} {remove}</RowMenu> })}
+            </Needs>
         </li>
         <Show when=move || renamed.get() == Some(number)>
             {rename_form(store, number, named.clone(), renamed)}

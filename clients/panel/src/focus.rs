@@ -8,6 +8,8 @@ use leptos::prelude::{document, request_animation_frame, set_interval, window_ev
 use wasm_bindgen::JsCast;
 use web_sys::{FocusEvent, HtmlElement};
 
+use crate::row_menu::FOLDED_ACTIONS;
+
 /// How often it is looked whether the focus was lost.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 /// A part of the page that is drawn anew is there again after so many looks.
@@ -53,10 +55,14 @@ fn look() {
     }
 }
 
-/// Gives the focus to an element by its name.
+/// Gives the focus to an element by its name, or to what unfolds it.
 pub(crate) fn focus_on(id: &str) {
     let element = document().get_element_by_id(id);
-    if let Some(element) = element.and_then(|element| element.dyn_into::<HtmlElement>().ok()) {
+    let folded = element
+        .as_ref()
+        .and_then(|element| element.closest(FOLDED_ACTIONS).ok().flatten());
+    let opener = folded.and_then(|actions| actions.previous_element_sibling());
+    if let Some(element) = opener.or(element).and_then(|element| element.dyn_into::<HtmlElement>().ok()) {
         element.focus().ok(); // An element that cannot take the focus leaves it where it is.
     }
 }

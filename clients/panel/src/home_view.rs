@@ -1,4 +1,4 @@
-//! The robot's map of the home, in words: its confidence, the floors, the rooms, what is forbidden, and the stored versions.
+//! The robot's map of the home, in words and in three parts: the rooms; zones, restricted areas and the dock; floors and stored maps.
 
 use std::time::Duration;
 
@@ -20,13 +20,85 @@ const CLOCK_IS_SET_FROM_S: i64 = 1_704_067_200;
 /// The list of stored maps is requested so often while it is shown.
 const RENEW_EVERY: Duration = Duration::from_secs(5);
 
+/// What of the home is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HomePart {
+    Rooms,
+    Zones,
+    Maps,
+}
+
+impl HomePart {
+    const ALL: [Self; 3] = [Self::Rooms, Self::Zones, Self::Maps];
+
+    /// Of its element; its button has the same name with `show-` before it.
+    const fn id(self) -> &'static str {
+        match self {
+            Self::Rooms => "home-rooms",
+            Self::Zones => "home-zones",
+            Self::Maps => "home-maps",
+        }
+    }
+
+    fn title(self) -> &'static str {
+        let texts = &words().home;
+        match self {
+            Self::Rooms => texts.rooms,
+            Self::Zones => texts.zones,
+            Self::Maps => texts.all_maps,
+        }
+    }
+}
+
 #[component]
-pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
+pub(crate) fn HomeSheet(
+    store: Store,
+    /// The part that is shown; it outlives the sheet, which is made anew whenever its tab is opened.
+    open: RwSignal<HomePart>,
+) -> impl IntoView {
     store.ask_for_maps();
     // A map is stored some seconds after a run, and no message announces it.
     if let Ok(renewal) = set_interval_with_handle(move || store.ask_for_maps(), RENEW_EVERY) {
         on_cleanup(move || renewal.clear());
     }
+    let choice = move |part: HomePart| {
+        view! {
+            <button
+                type="button"
+                id=format!("show-{}", part.id())
+                aria-pressed=move || if open.get() == part { "true" } else { "false" }
+                on:click=move |_| open.set(part)
+            >
+                {part.title()}
+            </button>
+        }
+    };
+    view! {
+        <div class="home" id="home-sheet">
+            <OnlyLooks store verb=EDITS_HOME />
+            <div class="passes home-parts" role="group" aria-label=words().home.parts>
+                {HomePart::ALL.map(choice).collect_view()}
+            </div>
+            <section class="home-part" id=HomePart::Rooms.id() hidden=move || open.get() != HomePart::Rooms>
+                <Sentences store />
+                <RoomList store />
+            </section>
+            <section class="home-part" id=HomePart::Zones.id() hidden=move || open.get() != HomePart::Zones>
+                <PlaceList store />
+                <NoGoList store />
+                <DockPlace store />
+            </section>
+            <section class="home-part" id=HomePart::Maps.id() hidden=move || open.get() != HomePart::Maps>
+                <FloorList store />
+                <MapList store />
+            </section>
+        </div>
+    }
+}
+
+/// How sure the robot is of its place, and what it has felt of the floor.
+#[component]
+fn Sentences(store: Store) -> impl IntoView {
     let sentences = move || {
         store.estimate.with(|estimate| {
             estimate
@@ -36,27 +108,26 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
         })
     };
     view! {
-        <div class="home" id="home-sheet">
-            <OnlyLooks store verb=EDITS_HOME />
-            <ul class="sentences">
-                {move || sentences().into_iter().chain(store.carpet.get()).map(|text| view! { <li>{text}</li> }).collect_view()}
-            </ul>
-            <FloorList store />
-            <RoomList store />
-            <PlaceList store />
-            <NoGoList store />
-            <DockPlace store />
-            <h3 id="maps-title">{words().home.maps}</h3>
-            <ul id="maps" class="rows" aria-labelledby="maps-title">
-                {move || {
-                    let maps = store.maps.get();
-                    maps.into_iter().enumerate().map(|(place, map)| kept(store, place, map)).collect_view()
-                }}
-            </ul>
-            <Show when=move || store.maps.with(Vec::is_empty)>
-                <p class="hint">{words().home.no_maps}</p>
-            </Show>
-        </div>
+        <ul class="sentences">
+            {move || sentences().into_iter().chain(store.carpet.get()).map(|text| view! { <li>{text}</li> }).collect_view()}
+        </ul>
+    }
+}
+
+/// The versions of the map that are kept.
+#[component]
+fn MapList(store: Store) -> impl IntoView {
+    view! {
+        <h3 id="maps-title">{words().home.maps}</h3>
+        <ul id="maps" class="rows" aria-labelledby="maps-title">
+            {move || {
+                let maps = store.maps.get();
+                maps.into_iter().enumerate().map(|(place, map)| kept(store, place, map)).collect_view()
+            }}
+        </ul>
+        <Show when=move || store.maps.with(Vec::is_empty)>
+            <p class="hint">{words().home.no_maps}</p>
+        </Show>
     }
 }
 

@@ -23,6 +23,8 @@ pub(crate) enum Icon {
     Warning,
     Undo,
     Redo,
+    More,
+    Up,
 }
 
 impl Icon {
@@ -51,6 +53,8 @@ impl Icon {
             }
             Self::Undo => "M8.5 5L4.5 9l4 4M5 9h9a5 5 0 0 1 0 10h-4",
             Self::Redo => "M15.5 5l4 4-4 4M19 9h-9a5 5 0 0 0 0 10h4",
+            Self::More => "M5 12h.01M12 12h.01M19 12h.01",
+            Self::Up => "M5 15l7-6 7 6",
             Self::Warning => "M12 4l9 15.5H3zM12 10v4.5M12 17v.5",
         }
     }

@@ -1,7 +1,7 @@
 //! Zones and spots that the robot keeps under names: chosen for cleaning as rooms are, and what is drawn can be kept.
 
 use leptos::prelude::*;
-use panel_logic::{Edit, Kept, PlaceRow, Target};
+use panel_logic::{Edit, Kept, PlaceRow, Target, Tool};
 use rvac_api::PlaceShape;
 
 use crate::access::{EDITS_HOME, Needs};
@@ -25,6 +25,25 @@ pub(crate) fn PlaceList(store: Store) -> impl IntoView {
             <p class="hint">{words().home.no_places}</p>
         </Show>
         <Drawn store />
+        <Show
+            when=move || store.rooms.with(|rooms| !rooms.is_empty())
+            fallback=move || view! { <p class="hint">{words().home.zones_need_rooms}</p> }
+        >
+            <div class="draw-tools">
+                {tool(store, Tool::CleanZone, "draw-clean", words().home.draw_clean)}
+                {tool(store, Tool::Spot, "draw-spot", words().home.draw_spot)}
+                {tool(store, Tool::AvoidZone, "draw-avoid", words().home.draw_avoid)}
+            </div>
+        </Show>
+    }
+}
+
+/// A button that takes a tool for drawing on the map.
+pub(crate) fn tool(store: Store, tool: Tool, id: &'static str, label: &'static str) -> impl IntoView {
+    view! {
+        <button type="button" class="small" id=id on:click=move |_| store.take_tool(tool)>
+            {label}
+        </button>
     }
 }
 

@@ -5,8 +5,10 @@ use panel_logic::{Edit, Forbidden, NoGoRow, RoomChangeRow, RoomRow, Target, Tool
 
 use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
+use crate::places_view::tool;
 use crate::rename_form::RenameForm;
 use crate::room_settings_view::SettingsForm;
+use crate::row_menu::RowMenu;
 use crate::row_tools::{DrawnRow, RowTools};
 use crate::store::Store;
 
@@ -16,7 +18,7 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
     let set = RwSignal::new(None::<u16>);
     let joinable = Memo::new(move |_| store.joinable_rooms());
     view! {
-        <h3 id="rooms-title">{words().home.rooms}</h3>
+        <h3 id="rooms-title" class="visually-hidden">{words().home.rooms}</h3>
         <ul id="rooms" class="rows" aria-labelledby="rooms-title">
             <For
                 each=move || store.rooms.get()
@@ -32,15 +34,6 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
         <Show when=move || store.rooms.with(|rooms| !rooms.is_empty())>
             <p class="hint">{words().home.choose_rooms}</p>
             <div class="draw-tools">
-                <button type="button" class="small" id="draw-clean" on:click=move |_| store.take_tool(Tool::CleanZone)>
-                    {words().home.draw_clean}
-                </button>
-                <button type="button" class="small" id="draw-spot" on:click=move |_| store.take_tool(Tool::Spot)>
-                    {words().home.draw_spot}
-                </button>
-                <button type="button" class="small" id="draw-avoid" on:click=move |_| store.take_tool(Tool::AvoidZone)>
-                    {words().home.draw_avoid}
-                </button>
                 <Needs store verb=EDITS_HOME>
                     <button type="button" class="small" id="draw-cut" on:click=move |_| store.take_tool(Tool::Cut)>
                         {words().home.draw_cut}
@@ -190,8 +183,10 @@ fn RoomTools(
     let texts = &words().home;
     view! {
         <Needs store verb=EDITS_HOME>
-            {opener(format!("rename-room-{id}"), texts.rename_named.fill([&name]), words().frame.rename, renamed)}
-            {opener(format!("room-{id}-settings"), texts.set_room_named.fill([&name]), texts.set_room, set)}
+            <RowMenu of=format!("room-{id}") name=name.clone()>
+                {opener(format!("rename-room-{id}"), texts.rename_named.fill([&name]), words().frame.rename, renamed)}
+                {opener(format!("room-{id}-settings"), texts.set_room_named.fill([&name]), texts.set_room, set)}
+            </RowMenu>
         </Needs>
     }
 }
@@ -213,13 +208,6 @@ fn rename(store: Store, id: u16, after: Option<String>) {
 
 #[component]
 pub(crate) fn NoGoList(store: Store) -> impl IntoView {
-    let tool = move |tool: Tool, id: &'static str, label: &'static str| {
-        view! {
-            <button type="button" class="small" id=id on:click=move |_| store.take_tool(tool)>
-                {label}
-            </button>
-        }
-    };
     let renamed = RwSignal::new(None::<u16>);
     view! {
         <h3 id="no-go-title">{words().home.no_go}</h3>
@@ -233,8 +221,8 @@ pub(crate) fn NoGoList(store: Store) -> impl IntoView {
         </Show>
         <div class="draw-tools">
             <Needs store verb=EDITS_HOME>
-                {tool(Tool::Wall, "draw-wall", words().home.draw_wall)}
-                {tool(Tool::Zone, "draw-zone", words().home.draw_zone)}
+                {tool(store, Tool::Wall, "draw-wall", words().home.draw_wall)}
+                {tool(store, Tool::Zone, "draw-zone", words().home.draw_zone)}
             </Needs>
         </div>
     }

@@ -1,10 +1,11 @@
-//! The buttons of a row for something drawn: rename, reshape, remove.
+//! The actions of a row for something drawn: rename, reshape, remove.
 
 use leptos::prelude::*;
 use panel_logic::Target;
 
 use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
+use crate::row_menu::RowMenu;
 use crate::store::Store;
 
 /// What the row shows.
@@ -35,6 +36,7 @@ pub(crate) fn RowTools(
     let is_renamed = move || renamed.get() == Some(number);
     view! {
         <Needs store verb=EDITS_HOME>
+            <RowMenu of=format!("{kind}-{number}") name=name.clone()>
             <button
                 type="button"
                 class="small"
@@ -63,6 +65,7 @@ pub(crate) fn RowTools(
             >
                 {words().frame.remove}
             </button>
+            </RowMenu>
         </Needs>
     }
 }

@@ -10,7 +10,7 @@ use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::focus::focus_on;
 use crate::history::HistorySheet;
-use crate::home_view::HomeSheet;
+use crate::home_view::{HomePart, HomeSheet};
 use crate::language::words;
 use crate::learnt_view::LearntSection;
 use crate::log_view::LogView;
@@ -58,6 +58,7 @@ fn keep_tab(open: usize) {
 #[component]
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
     let open = RwSignal::new(kept_tab());
+    let home_part = RwSignal::new(HomePart::Rooms);
     Effect::new(move |_| keep_tab(open.get()));
     let on_key = move |event: KeyboardEvent| {
         let now = open.get_untracked();
@@ -97,7 +98,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <DriveSheet store />
             </div>
             <div role="tabpanel" id="sheet-home" aria-labelledby="tab-home" hidden=move || open.get() != 1>
-                <Show when=move || open.get() == 1><HomeSheet store /></Show>
+                <Show when=move || open.get() == 1><HomeSheet store open=home_part /></Show>
             </div>
             <div role="tabpanel" id="sheet-schedules" aria-labelledby="tab-schedules" hidden=move || open.get() != 2>
                 <Show when=move || open.get() == 2><ScheduleSheet store /></Show>

@@ -35,6 +35,14 @@ const AWAIT_CLICK: &str = "
     window.clickSeen ??= ['click', 'change'].forEach(
         kind => window.addEventListener(kind, event => window.noteClick(event), true)) ?? true;";
 
+/// What a person presses first to see this: the part of the home that it is in, then the menu of its row. Null when it is seen.
+const OPENER: &str = "
+    const element = document.querySelector(arguments[0]);
+    const part = element?.closest('.home-part[hidden]');
+    if (part) return `show-${part.id}`;
+    const actions = element?.closest('.row-actions[hidden]');
+    return actions ? actions.previousElementSibling.id : null;";
+
 /// Size of the screen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Screen {
@@ -169,6 +177,40 @@ impl Browser {
     /// one below a bar that stays at the edge for visible. A page that grows between the driver's measurement and its press makes
     /// the press land elsewhere; a person presses again then, and so does this.
     pub(crate) async fn click(&self, selector: &str) {
+        self.reveal(selector).await;
+        self.click_on_seen(selector).await;
+    }
+
+    /// Opens what an element is folded away in; how many presses that takes.
+    pub(crate) async fn reveal(&self, selector: &str) -> u32 {
+        let there = format!("return document.querySelector({selector:?}) !== null");
+        self.is_within(PATIENCE, &there).await; // Whoever presses says what is missing.
+        let mut presses = 0;
+        while let Some(opener) = self.opener_of(selector).await {
+            self.click_on_seen(&format!("#{opener}")).await;
+            presses += 1;
+        }
+        presses
+    }
+
+    /// The name of the button that unfolds an element, or of what is around that.
+    pub(crate) async fn opener_of(&self, selector: &str) -> Option<String> {
+        let opener = self.client.execute(OPENER, vec![json!(selector)]).await.ok()?;
+        opener.as_str().map(str::to_owned)
+    }
+
+    /// Clicks in the middle of an element without scrolling to it.
+    pub(crate) async fn click_where_it_is(&self, id: &str) {
+        let place = format!(
+            "const box = document.getElementById('{id}').getBoundingClientRect();
+             const hit = document.elementFromPoint(box.x + box.width / 2, box.y + 8);
+             if (hit?.closest('#{id}') === null) return hit.outerHTML.slice(0, 100);
+             hit.closest('#{id}').click(); return ''"
+        );
+        assert_eq!(self.text(&place).await, "", "{id} is covered");
+    }
+
+    async fn click_on_seen(&self, selector: &str) {
         let deadline = Instant::now() + PATIENCE;
         loop {
             let prepare = vec![json!(selector)];

@@ -74,11 +74,23 @@ fn direction(id: &str) -> String {
     )
 }
 
-/// Goes by Tab to the element `id` as soon as there is one; at each stop the focus is to be seen.
+/// Goes by Tab to the element `id` as soon as there is one, and unfolds on the way what it is in; at each stop the focus is to be seen.
 pub(crate) async fn go_to(browser: &Browser, id: &str) {
     browser
         .until(&format!("return document.getElementById('{id}') !== null"))
         .await;
+    while let Some(opener) = browser.opener_of(&format!("#{id}")).await {
+        go_to_seen(browser, &opener).await;
+        press(browser, "Enter");
+        let opened = format!("#{id}");
+        let is_open = format!("return document.getElementById('{opener}').matches('[aria-expanded=true], [aria-pressed=true]')");
+        browser.until(&is_open).await;
+        assert_ne!(browser.opener_of(&opened).await.as_deref(), Some(opener.as_str()));
+    }
+    go_to_seen(browser, id).await;
+}
+
+async fn go_to_seen(browser: &Browser, id: &str) {
     for _ in 0..PLACES_MAX {
         match browser.text(&direction(id)).await.as_str() {
             "there" => return,

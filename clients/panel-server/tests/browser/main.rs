@@ -43,6 +43,7 @@ mod rival;
 mod robot;
 mod roles;
 mod schedules;
+mod sheets;
 mod slow_wire;
 mod small_print;
 mod software;

@@ -37,7 +37,8 @@ impl<'a> Task<'a> {
     }
 
     async fn press(&self, selector: &str) {
-        self.count(1);
+        let folded = self.browser.reveal(selector).await;
+        self.count(usize::try_from(folded).unwrap() + 1);
         self.browser.click(selector).await;
     }
 
@@ -54,7 +55,7 @@ impl<'a> Task<'a> {
     /// A finger goes over the map, from one place to the other, in shares of its size.
     async fn drag_over_map(&self, [from, to]: [[f64; 2]; 2]) {
         self.count(1);
-        let box_of_map = "const map = document.getElementById('map'); map.scrollIntoView({ block: 'start' }); \
+        let box_of_map = "const map = document.getElementById('map'); window.scrollTo(0, 0); \
              const box = map.getBoundingClientRect(); return JSON.stringify([box.x, box.y, box.width, box.height])";
         let [x, y, width, height]: [f64; 4] =
             serde_json::from_str(&self.browser.text(box_of_map).await).unwrap();

@@ -11,6 +11,7 @@ use rvac_api::{Failure, HomeView, JobEstimate, JobOrder, RequestBody};
 use super::MapHandle;
 use super::scene::Ground;
 use crate::access::EDITS_HOME;
+use crate::bottom_sheet;
 use crate::changes::set_if_changed;
 use crate::language::words;
 use crate::store::Store;
@@ -131,6 +132,7 @@ impl Store {
             // What was refused before lies over the hint on a phone.
             self.refusal.set(None);
             self.show_known_home();
+            bottom_sheet::lower();
             self.map.with_value(MapHandle::focus);
         }
     }

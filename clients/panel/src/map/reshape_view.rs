@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use panel_logic::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Pixel, Reshape, Reshaped, RoomChoice, Target};
 
 use crate::access::EDITS_HOME;
+use crate::bottom_sheet;
 use crate::focus::focus_soon_on;
 use crate::language::words;
 use crate::store::Store;
@@ -26,6 +27,7 @@ impl Store {
             .set(Reshape::begin(target, &home, &choice, words()));
         self.refusal.set(None);
         self.show_known_home();
+        bottom_sheet::lower();
     }
 
     /// Keeps the new shape.

@@ -42,9 +42,9 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
             <GroundSwitch store shown=ground />
             <Failures failure footer />
             <MapTools store mode orbit />
-            <OrderBar store />
             <MapFooter store footer />
         </section>
+        <OrderBar store />
     }
 }
 

@@ -14,6 +14,7 @@ use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
 use crate::access::{EDITS_SCHEDULES, Needs, OnlyLooks};
 use crate::language::words;
+use crate::row_menu::RowMenu;
 use crate::store::{SCHEDULE_ID, Store};
 use crate::toasts::Undo;
 use form::FormView;
@@ -229,6 +230,7 @@ fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl
                 </button>
             </Needs>
             <Needs store verb=EDITS_SCHEDULES>
+                <RowMenu of=format!("schedule-{number}") name=untrack(name)>
                 <button type="button" class="small" id=format!("edit-{number}") aria-label=labelled(words().schedule.edit_named) on:click=edit>
                     {words().schedule.edit}
                 </button>
@@ -241,6 +243,7 @@ fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl
                 >
                     {words().frame.remove}
                 </button>
+                </RowMenu>
             </Needs>
         </div>
     }

@@ -30,6 +30,9 @@ screen! {
         cancel: "Cancel", "Loobu";
         remove: "Remove", "Eemalda";
         rename: "Rename", "Nimeta ümber";
+        more_for[1]: "More for {0}", "Veel: {0}";
+        raise_sheet: "Show more", "Näita rohkem";
+        lower_sheet: "Show the map", "Näita kaarti";
         not_now[1]: ", not now: {0}", ", praegu mitte: {0}";
     }
 }

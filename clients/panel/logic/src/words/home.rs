@@ -52,10 +52,15 @@ screen! {
             "Tuvastatud vaip: {0}. Kõva põrand: {1}.";
         carpet_unknown: "Carpet is not detected: this robot does not measure the currents of its motors.",
             "Vaipa ei tuvastata: see robot ei mõõda oma mootorite voolu.";
+        parts: "Parts of the home", "Kodu osad";
+        zones: "Zones", "Alad";
+        all_maps: "Maps", "Kaardid";
         rooms: "Rooms", "Toad";
         room[1]: "Room {0}", "Tuba {0}";
         no_rooms: "No room is known yet: the robot finds them while it cleans.",
             "Ühtki tuba veel ei teata: robot leiab need koristades.";
+        zones_need_rooms: "Zones can be drawn as soon as a room is known.",
+            "Alasid saab joonistada, kui mõni tuba on teada.";
         choose_rooms: "Press a room here or tap it on the map to choose it for cleaning.",
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";

@@ -1,0 +1,67 @@
+//! On a phone all but the map is a sheet that lies over the lower part of the map. It is pulled up by scrolling the page; the handle
+//! at its top does the same for a press.
+
+use leptos::ev;
+use leptos::prelude::*;
+
+use crate::icons::{Icon, icon};
+use crate::language::words;
+
+/// A sheet that is raised by more than this is pushed down by a press, CSS pixels.
+const RAISED_PX: f64 = 40.0;
+/// So much of the height of the page a press raises it.
+const RAISE_SHARE: f64 = 0.5;
+
+/// Shows the map whole, for what is done on it.
+pub(crate) fn lower() {
+    scroll_to(0.0);
+}
+
+#[component]
+pub(crate) fn SheetHandle() -> impl IntoView {
+    let is_raised = RwSignal::new(false);
+    let listener = window_event_listener(ev::scroll, move |_| {
+        let raised = scrolled_px() > RAISED_PX;
+        if raised != is_raised.get_untracked() {
+            is_raised.set(raised);
+        }
+    });
+    on_cleanup(move || listener.remove());
+    let press = move |_| {
+        let height_px = window().inner_height().ok().and_then(|height| height.as_f64());
+        scroll_to(if is_raised.get_untracked() {
+            0.0
+        } else {
+            RAISE_SHARE * height_px.unwrap_or_default()
+        });
+    };
+    let text = move || {
+        let texts = &words().frame;
+        if is_raised.get() {
+            texts.lower_sheet
+        } else {
+            texts.raise_sheet
+        }
+    };
+    view! {
+        <button
+            type="button"
+            class="sheet-handle"
+            id="sheet-handle"
+            aria-label=text
+            data-raised=move || if is_raised.get() { "yes" } else { "no" }
+            on:click=press
+        >
+            {icon(Icon::Up)}
+        </button>
+    }
+}
+
+/// How far the page is scrolled, CSS pixels.
+fn scrolled_px() -> f64 {
+    window().scroll_y().unwrap_or_default()
+}
+
+fn scroll_to(top_px: f64) {
+    window().scroll_to_with_x_and_y(0.0, top_px);
+}
