@@ -39,6 +39,26 @@ const ENLARGED_FIELDS: &str = "
         .filter(field => field.checkVisibility() && parseFloat(getComputedStyle(field).fontSize) < 16)
         .map(field => field.id || field.className || field.name).join(', ')";
 
+/// Buttons that are seen and break a word at which no line may end, by their texts; and by how much the page is higher than the window,
+/// which on a wide screen it never is: its parts scroll.
+const TORN: &str = "
+    const lines = word => new Set([...word.getClientRects()].map(box => Math.round(box.top))).size;
+    const isTorn = button => {
+        const texts = document.createTreeWalker(button, NodeFilter.SHOW_TEXT);
+        for (let text; (text = texts.nextNode());) {
+            for (const word of text.data.matchAll(/[^\\s\u00ad-]+/g)) {
+                const range = document.createRange();
+                range.setStart(text, word.index);
+                range.setEnd(text, word.index + word[0].length);
+                if (word[0].length < 14 && lines(range) > 1) return true;
+            }
+        }
+        return false;
+    };
+    const tall = document.documentElement.scrollHeight - innerHeight;
+    return [...document.querySelectorAll('button')].filter(button => button.checkVisibility() && isTorn(button))
+        .map(button => button.textContent).concat(innerWidth > 800 && tall > 0 ? [`the page scrolls by ${tall}`] : []).join(', ')";
+
 /// What is wrong with what the browser shows now, a line for each fault.
 pub(crate) async fn faults(browser: &Browser) -> Vec<String> {
     let is_there = browser.text("return typeof axe").await;
@@ -74,7 +94,7 @@ async fn dress(browser: &Browser, language: &str, look: &str) {
 }
 
 /// The steps to a view, and a script that is true when it is there.
-const VIEWS: [(&str, &[&str], &str); 12] = [
+const VIEWS: [(&str, &[&str], &str); 15] = [
     ("drive", &["#tab-drive"], "#pad"),
     (
         "mixes",
@@ -87,6 +107,9 @@ const VIEWS: [(&str, &[&str], &str); 12] = [
         "#mixes .mix-curve",
     ),
     ("home", &["#edit-mixes", "#tab-home"], "#rooms .choose"),
+    ("menu", &["#more-room-1"], ".row-actions:not([hidden])"),
+    ("zones", &["#show-home-zones"], "#no-go-title"),
+    ("maps", &["#show-home-maps"], "#maps-title"),
     ("rename", &["#rename-floor-1"], "#floor-name"),
     // The only floor must stay.
     ("refusal", &["#rename-floor-1", "#remove-floor-1"], "#refusal"),
@@ -96,7 +119,7 @@ const VIEWS: [(&str, &[&str], &str); 12] = [
         &[
             "#refusal button",
             "#rooms .choose",
-            "#rooms li button[aria-expanded]",
+            "#rooms [id^=rename-room]",
             "#rooms [id$=-settings]",
         ],
         "#order-bar",
@@ -136,6 +159,10 @@ async fn walk(browser: &Browser, dressed: &str) -> String {
                 "{dressed}, {name}: fields that enlarge the page of an iPhone: {enlarged}"
             )
             .unwrap();
+        }
+        let torn = browser.text(TORN).await;
+        if !torn.is_empty() {
+            writeln!(all, "{dressed}, {name}: torn words, or a page that scrolls: {torn}").unwrap();
         }
         browser.shot(&format!("axe-{dressed}-{name}")).await;
     }

@@ -27,7 +27,10 @@ const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// Scrolls to an element, and notes whether the next click arrives at it. A page that is left by the click forgets the note.
 const AWAIT_CLICK: &str = "
     const selector = arguments[0];
-    document.querySelector(selector)?.scrollIntoView({ block: 'center' });
+    const wanted = document.querySelector(selector);
+    // On a phone the sheet may lie over what belongs to the map, which does not scroll.
+    if (wanted?.closest('.map')) window.scrollTo(0, 0);
+    else wanted?.scrollIntoView({ block: 'center' });
     const arrives = target => target.closest?.(selector)
         || (target.tagName === 'SELECT' && target.contains(document.querySelector(selector)));
     window.clickMissed = true;

@@ -95,7 +95,7 @@ async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
     browser.click("#undo").await;
     forbidden(browser, 1).await;
 
-    browser.click("#rooms li button[aria-expanded]").await;
+    browser.click("#rooms [id^=rename-room]").await;
     let typed = "const field = document.getElementById('room-name'); field.value = 'Kitchen'; \
                  field.dispatchEvent(new Event('input', {bubbles: true})); return ''";
     browser.text(typed).await;
