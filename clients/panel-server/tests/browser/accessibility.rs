@@ -46,7 +46,7 @@ const TORN: &str = "
     const isTorn = button => {
         const texts = document.createTreeWalker(button, NodeFilter.SHOW_TEXT);
         for (let text; (text = texts.nextNode());) {
-            for (const word of text.data.matchAll(/[^\\s\u00ad-]+/g)) {
+            for (const word of text.data.matchAll(/[^\\s\\u00ad-]+/g)) {
                 const range = document.createRange();
                 range.setStart(text, word.index);
                 range.setEnd(text, word.index + word[0].length);

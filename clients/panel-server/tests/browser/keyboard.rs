@@ -215,7 +215,7 @@ async fn a_no_go_zone_is_drawn_reshaped_and_given_its_shape_back_by_keys_alone()
             "return document.querySelector('#no-go .words').textContent !== {drawn:?}"
         ))
         .await;
-    focus_is_on(browser, "reshape-no-go-1").await;
+    focus_is_on(browser, "more-no-go-1").await;
     press_with(browser, "z", CTRL);
     is_forbidden(browser, &drawn).await;
     press_with(browser, "z", CTRL);
