@@ -2,6 +2,7 @@
 //! at its top does the same for a press.
 
 use leptos::ev;
+use leptos::html::Button;
 use leptos::prelude::*;
 
 use crate::icons::{Icon, icon};
@@ -11,6 +12,9 @@ use crate::language::words;
 const RAISED_PX: f64 = 40.0;
 /// So much of the height of the page a press raises it.
 const RAISE_SHARE: f64 = 0.5;
+
+/// The bar at the top, under which the handle must not go, with a gap, CSS pixels.
+const BAR_PX: f64 = 62.0;
 
 /// Shows the map whole, for what is done on it.
 pub(crate) fn lower() {
@@ -27,13 +31,19 @@ pub(crate) fn SheetHandle() -> impl IntoView {
         }
     });
     on_cleanup(move || listener.remove());
+    let handle = NodeRef::<Button>::new();
     let press = move |_| {
+        // Asked anew: the page tells of its scrolling only with its next picture.
+        let scrolled_px = scrolled_px();
+        if scrolled_px > RAISED_PX {
+            lower();
+            return;
+        }
         let height_px = window().inner_height().ok().and_then(|height| height.as_f64());
-        scroll_to(if is_raised.get_untracked() {
-            0.0
-        } else {
-            RAISE_SHARE * height_px.unwrap_or_default()
+        let above_px = handle.get_untracked().map_or(0.0, |handle| {
+            handle.get_bounding_client_rect().top() + scrolled_px - BAR_PX
         });
+        scroll_to((RAISE_SHARE * height_px.unwrap_or_default()).min(above_px));
     };
     let text = move || {
         let texts = &words().frame;
@@ -48,6 +58,7 @@ pub(crate) fn SheetHandle() -> impl IntoView {
             type="button"
             class="sheet-handle"
             id="sheet-handle"
+            node_ref=handle
             aria-label=text
             data-raised=move || if is_raised.get() { "yes" } else { "no" }
             on:click=press

@@ -62,7 +62,10 @@ pub(crate) fn focus_on(id: &str) {
         .as_ref()
         .and_then(|element| element.closest(FOLDED_ACTIONS).ok().flatten());
     let opener = folded.and_then(|actions| actions.previous_element_sibling());
-    if let Some(element) = opener.or(element).and_then(|element| element.dyn_into::<HtmlElement>().ok()) {
+    if let Some(element) = opener
+        .or(element)
+        .and_then(|element| element.dyn_into::<HtmlElement>().ok())
+    {
         element.focus().ok(); // An element that cannot take the focus leaves it where it is.
     }
 }

@@ -162,7 +162,11 @@ async fn walk(browser: &Browser, dressed: &str) -> String {
         }
         let torn = browser.text(TORN).await;
         if !torn.is_empty() {
-            writeln!(all, "{dressed}, {name}: torn words, or a page that scrolls: {torn}").unwrap();
+            writeln!(
+                all,
+                "{dressed}, {name}: torn words, or a page that scrolls: {torn}"
+            )
+            .unwrap();
         }
         browser.shot(&format!("axe-{dressed}-{name}")).await;
     }

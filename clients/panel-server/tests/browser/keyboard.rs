@@ -83,7 +83,9 @@ pub(crate) async fn go_to(browser: &Browser, id: &str) {
         go_to_seen(browser, &opener).await;
         press(browser, "Enter");
         let opened = format!("#{id}");
-        let is_open = format!("return document.getElementById('{opener}').matches('[aria-expanded=true], [aria-pressed=true]')");
+        let is_open = format!(
+            "return document.getElementById('{opener}').matches('[aria-expanded=true], [aria-pressed=true]')"
+        );
         browser.until(&is_open).await;
         assert_ne!(browser.opener_of(&opened).await.as_deref(), Some(opener.as_str()));
     }

@@ -8,7 +8,8 @@ use crate::browser::{Browser, Screen};
 /// The middle of an element, CSS pixels of the window.
 async fn middle(browser: &Browser, id: &str) -> (f64, f64) {
     let script = format!(
-        "const element = document.getElementById('{id}'); element.scrollIntoView({{ block: 'center' }}); \
+        "const element = document.getElementById('{id}'); \
+         if (element.closest('.map')) window.scrollTo(0, 0); else element.scrollIntoView({{ block: 'center' }}); \
          const box = element.getBoundingClientRect(); return `${{box.x + box.width / 2}} ${{box.y + box.height / 2}}`"
     );
     let told = browser.text(&script).await;

@@ -58,7 +58,10 @@ async fn on_a_phone_the_sheet_is_pulled_up_over_a_map_that_stays() {
         browser.text("window.scrollTo(0, 0); return ''").await;
         let low = Places::seen(browser).await;
         assert_eq!(low.scrolled, 0, "{size:?}");
-        assert!(low.sheet_top < low.map_bottom, "the sheet lies over the edge of the map: {low:?}");
+        assert!(
+            low.sheet_top < low.map_bottom,
+            "the sheet lies over the edge of the map: {low:?}"
+        );
         browser.click_where_it_is("sheet-handle").await;
         let high = Places::seen(browser).await;
         assert_eq!(
@@ -74,7 +77,11 @@ async fn on_a_phone_the_sheet_is_pulled_up_over_a_map_that_stays() {
     browser.click("#tab-home").await;
     browser.click("#draw-zone").await;
     browser.shot("phone-drawing").await;
-    assert_eq!(Places::seen(browser).await.scrolled, 0, "whoever draws sees the map");
+    assert_eq!(
+        Places::seen(browser).await.scrolled,
+        0,
+        "whoever draws sees the map"
+    );
     assert_eq!(browser.text(AT_MIDDLE_OF_MAP).await, "map");
     browser.click("#sketch-cancel").await;
 }
@@ -130,7 +137,11 @@ async fn keys_go_into_a_menu_and_out_of_it(browser: &Browser) {
     assert_eq!(browser.text(focused).await, "more-room-1");
     go_to(browser, "rename-room-1").await;
     press(browser, "Enter");
-    assert_eq!(browser.text(focused).await, "more-room-1", "the action is folded away");
+    assert_eq!(
+        browser.text(focused).await,
+        "more-room-1",
+        "the action is folded away"
+    );
     go_to(browser, "room-name").await;
     press(browser, "Enter");
     browser
