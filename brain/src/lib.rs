@@ -13,6 +13,7 @@ pub mod mapping;
 mod model;
 mod navigation;
 mod recovery;
+mod travel;
 
 pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
 pub use brain::checkpoint::{Checkpoint, CheckpointWork};

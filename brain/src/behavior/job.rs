@@ -14,6 +14,7 @@ use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::navigation::{BackOff, Manoeuvre, ManoeuvreSequence, Task, Turn};
 use crate::recovery::{CliffWatch, Pen, ProgressWatch, RecoverySequence, SlipWatch};
+use crate::travel::Visit;
 
 /// A running or waiting job.
 #[derive(Debug)]
@@ -74,6 +75,7 @@ fn task(kind: JobKind, order: &CleaningOrder) -> Box<dyn Task> {
     match kind {
         JobKind::Clean(strategy) => coverage::strategy(strategy, order),
         JobKind::Spot => Box::new(Spot::default()),
+        JobKind::GoTo => Box::new(Visit::of(order)),
         JobKind::Dock => Box::new(Docking::default()),
     }
 }

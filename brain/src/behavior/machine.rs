@@ -172,6 +172,7 @@ impl Behavior {
             Mode::Starting { .. } => BehaviorState::Starting,
             Mode::Working => match self.job.as_ref().map(|job| job.kind) {
                 Some(JobKind::Spot) => BehaviorState::Spot,
+                Some(JobKind::GoTo) => BehaviorState::Going,
                 Some(JobKind::Dock) => BehaviorState::Docking,
                 Some(JobKind::Clean(_)) | None => BehaviorState::Cleaning,
             },
@@ -329,7 +330,7 @@ impl Behavior {
     pub(super) fn runs_cleaners(&self) -> bool {
         match self.mode {
             Mode::Working => self.job.as_ref().is_some_and(|job| {
-                job.kind != JobKind::Dock
+                matches!(job.kind, JobKind::Clean(_) | JobKind::Spot)
                     && job.brushes
                     && !job.returns
                     && !job.crosses

@@ -17,6 +17,8 @@ pub enum BehaviorState {
     Cleaning,
     /// Cleans a small disc.
     Spot,
+    /// Drives to a place without cleaning.
+    Going,
     /// Searches for the dock or drives onto it.
     Docking,
     /// On the dock.
@@ -33,12 +35,13 @@ pub enum BehaviorState {
 
 impl BehaviorState {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Disconnected,
         Self::Idle,
         Self::Starting,
         Self::Cleaning,
         Self::Spot,
+        Self::Going,
         Self::Docking,
         Self::Docked,
         Self::Manual,
@@ -56,6 +59,7 @@ impl BehaviorState {
             Self::Starting => "starting",
             Self::Cleaning => "cleaning",
             Self::Spot => "spot",
+            Self::Going => "going",
             Self::Docking => "docking",
             Self::Docked => "docked",
             Self::Manual => "manual",
@@ -68,7 +72,10 @@ impl BehaviorState {
     /// Whether the wheels may turn in this state.
     #[must_use]
     pub const fn moves(self) -> bool {
-        matches!(self, Self::Cleaning | Self::Spot | Self::Docking | Self::Manual)
+        matches!(
+            self,
+            Self::Cleaning | Self::Spot | Self::Going | Self::Docking | Self::Manual
+        )
     }
 
     /// What the decision to enter this state is called.
@@ -79,6 +86,7 @@ impl BehaviorState {
             Self::Starting => DecisionKind::StateStarting,
             Self::Cleaning => DecisionKind::StateCleaning,
             Self::Spot => DecisionKind::StateSpot,
+            Self::Going => DecisionKind::StateGoing,
             Self::Docking => DecisionKind::StateDocking,
             Self::Docked => DecisionKind::StateDocked,
             Self::Manual => DecisionKind::StateManual,
@@ -96,7 +104,7 @@ pub struct Status {
     pub state: BehaviorState,
     /// Why.
     pub reason: Reason,
-    /// Strategy of the running or waiting job; `None` without a job and for spot and dock jobs.
+    /// Strategy of the running or waiting job; `None` without a job and for jobs of other kinds.
     pub strategy: Option<StrategyName>,
     /// A waiting job would resume now on `resume`.
     pub resumable: bool,
@@ -122,6 +130,8 @@ pub enum JobKind {
     Clean(StrategyName),
     /// Clean a small disc.
     Spot,
+    /// Drive to the only place of the order.
+    GoTo,
     /// Find the dock.
     Dock,
 }

@@ -13,12 +13,9 @@ mod beam_goals;
 mod centreline;
 mod dock_search;
 mod parameters;
-mod path_inputs;
 mod roam;
 mod scan;
-mod travel;
 mod tries;
-mod unseen_specks;
 
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -26,11 +23,11 @@ use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
+use crate::travel::{PastFloor, Travel, TravelStep, path_length_m};
 use approach::{Approach, ApproachStep};
 use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
 use parameters::DOCKING;
-use travel::{PastFloor, Travel, TravelStep};
 use tries::{FailedTries, FailedTry};
 
 /// The task.
@@ -294,7 +291,7 @@ impl Docking {
 /// known.
 pub(crate) fn path_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
     let dock = known_dock(situation).ok()?;
-    Some(path_inputs::path_length_m(dock, situation))
+    Some(path_length_m(dock, situation))
 }
 
 /// Pose of a docked robot, if the robot is localized and the dock is on the map.

@@ -1,5 +1,6 @@
 //! What people and schedules ask of the brain.
 
+use super::geometry::Point2;
 use super::map_edit::MapEdit;
 use super::order::CleaningOrder;
 
@@ -39,6 +40,11 @@ pub enum JobCommand {
     },
     /// Clean a small disc around the present place.
     Spot,
+    /// Drive to a place on the map without cleaning, and stand there.
+    GoTo {
+        /// Which.
+        place: Point2,
+    },
     /// Stand still, keep the job.
     Pause,
     /// Go on with the paused job.

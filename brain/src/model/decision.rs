@@ -84,6 +84,8 @@ named_enum! {
         DockSearchTurn => "dock-search-turn",
         /// Drives to where the dock is or was received.
         DockTravel => "dock-travel",
+        /// Planned a path to the place to which it is sent.
+        PlaceWay => "place-way",
         /// Planned a path to the dock.
         DockWay => "dock-way",
         /// Wiggles on the contacts of the dock.
@@ -162,6 +164,8 @@ named_enum! {
         StatePaused => "state-paused",
         /// Enters the state `spot`.
         StateSpot => "state-spot",
+        /// It drives to a place.
+        StateGoing => "state-going",
         /// Enters the state `starting`.
         StateStarting => "state-starting",
         /// Enters the state `stuck`.

@@ -34,6 +34,8 @@ named_enum! {
         NotCalibrated => "not-calibrated",
         /// The robot can reach nothing of what is ordered.
         RestOutOfReach => "rest-out-of-reach",
+        /// It is not sure where it is, and would not find the place.
+        PlaceUnknown => "place-unknown",
         /// A no-go zone shuts off what is ordered.
         NoGoInTheWay => "no-go-in-the-way",
         /// A virtual wall shuts off what is ordered.

@@ -63,6 +63,15 @@ impl CleaningOrder {
         }
     }
 
+    /// One place, to which a robot is sent.
+    #[must_use]
+    pub fn of_place(place: Point2) -> Self {
+        Self {
+            parts: vec![HomePart::Spot(place)],
+            ..Self::default()
+        }
+    }
+
     /// The same, with up to 16 areas to avoid until the next job begins.
     ///
     /// # Errors

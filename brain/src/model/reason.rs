@@ -17,6 +17,8 @@ named_enum! {
         Command => "command",
         /// The job is done.
         Finished => "finished",
+        /// It stands where it was sent.
+        Arrived => "arrived",
         /// It goes on by itself after an interruption.
         Continued => "continued",
         /// A job was taken up again after the daemon restarted.

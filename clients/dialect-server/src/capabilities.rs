@@ -28,11 +28,12 @@ pub(crate) enum Capability {
     CurrentStatistics,
     TotalStatistics,
     Locate,
+    GoTo,
     ManualControl,
 }
 
 impl Capability {
-    const ALL: [(&'static str, Self); 13] = [
+    const ALL: [(&'static str, Self); 14] = [
         ("BasicControlCapability", Self::BasicControl),
         ("FanSpeedControlCapability", Self::FanSpeed),
         ("MapSegmentationCapability", Self::Segmentation),
@@ -45,6 +46,7 @@ impl Capability {
         ("CurrentStatisticsCapability", Self::CurrentStatistics),
         ("TotalStatisticsCapability", Self::TotalStatistics),
         ("LocateCapability", Self::Locate),
+        ("GoToLocationCapability", Self::GoTo),
         ("HighResolutionManualControlCapability", Self::ManualControl),
     ];
 
@@ -213,6 +215,10 @@ fn requests(
             let components = consumable(rest).unwrap_or_default();
             return Ok(reads::resets(components));
         }
+        Capability::GoTo => {
+            action(body, "goto")?;
+            dialect::go_to(body, frame)?
+        }
         Capability::Locate => {
             action(body, "locate")?;
             RequestBody::Locate
@@ -280,7 +286,8 @@ mod tests {
             assert!(!names.contains(&lacking), "{lacking}");
             assert_eq!(Capability::named(lacking, &store), None);
         }
-        assert_eq!(Capability::named("GoToLocationCapability", &store), None);
+        assert!(names.contains(&"GoToLocationCapability"));
+        assert_eq!(Capability::named("MapResetCapability", &store), None);
         assert!(is_command(Capability::Consumables, "brush/main"));
         for nowhere in ["", "brush", "brush/main/", "brush/side_left"] {
             assert!(!is_command(Capability::Consumables, nowhere), "{nowhere}");

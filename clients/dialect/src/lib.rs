@@ -12,7 +12,7 @@ mod state;
 pub use body::BodyError;
 pub use map::{Frame, empty_map, map, segments};
 pub use orders::{
-    Operation, clean_segments, clean_zones, join_segments, preset, preset_named, rename_segment,
+    Operation, clean_segments, clean_zones, go_to, join_segments, preset, preset_named, rename_segment,
     split_segment, stick, with_speed,
 };
 pub use restrictions::{restriction_changes, restrictions};

@@ -104,6 +104,16 @@ pub fn clean_zones(body: &Value, frame: Option<&Frame>) -> Result<JobOrder, Body
     job(body, zones.iter().map(zone).collect::<Result<_, _>>()?)
 }
 
+/// To go to a place.
+///
+/// # Errors
+/// [`BodyError`].
+pub fn go_to(body: &Value, frame: Option<&Frame>) -> Result<RequestBody, BodyError> {
+    let frame = *frame.ok_or(BodyError::NoMap)?;
+    let [x, y] = place(body, "coordinates", frame)?;
+    Ok(RequestBody::GoTo { x, y })
+}
+
 fn job(body: &Value, parts: Vec<JobPart>) -> Result<JobOrder, BodyError> {
     if parts.is_empty() {
         return Err(wrong("the list", "of one part at least"));

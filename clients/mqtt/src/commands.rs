@@ -9,10 +9,11 @@ use crate::topics::Hearing;
 /// Longest command.
 const COMMAND_BYTES_MAX: usize = 4 << 10;
 /// Requests that may come over a broker, by their word in `c`: nothing that drives by hand, and nothing that changes the home.
-const REQUESTS: [&str; 12] = [
+const REQUESTS: [&str; 13] = [
     "start",
     "clean",
     "spot",
+    "go-to",
     "pause",
     "resume",
     "stop",

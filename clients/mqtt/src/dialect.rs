@@ -21,9 +21,10 @@ const PRESET: &str = "FanSpeedControlCapability/preset/set";
 const SEGMENTS: &str = "MapSegmentationCapability/clean/set";
 const ZONES: &str = "ZoneCleaningCapability/start/set";
 const LOCATE: &str = "LocateCapability/locate/set";
+const GO_TO: &str = "GoToLocationCapability/go/set";
 
 /// All topics on which commands come.
-const TOPICS: [&str; 5] = [OPERATION, PRESET, SEGMENTS, ZONES, LOCATE];
+const TOPICS: [&str; 6] = [OPERATION, PRESET, SEGMENTS, ZONES, LOCATE, GO_TO];
 
 /// Least pause between two maps.
 const MAP_EVERY: Duration = Duration::from_secs(2);
@@ -208,6 +209,7 @@ impl Dialect {
             SEGMENTS => job(dialect::clean_segments(&json()?)?),
             ZONES => job(dialect::clean_zones(&json()?, frame)?),
             LOCATE if text == "PERFORM" => RequestBody::Locate,
+            GO_TO => dialect::go_to(&json()?, frame)?,
             _ => return Err(NoOrder::Unknown),
         }))
     }
@@ -220,7 +222,7 @@ fn operation(text: &str) -> Option<Operation> {
 }
 
 /// Nodes of the convention *Homie*, version 4.
-const NODES: [&str; 9] = [
+const NODES: [&str; 10] = [
     "StatusStateAttribute",
     "BatteryStateAttribute",
     "CurrentStatisticsCapability",
@@ -229,6 +231,7 @@ const NODES: [&str; 9] = [
     "MapSegmentationCapability",
     "ZoneCleaningCapability",
     "LocateCapability",
+    "GoToLocationCapability",
     "MapData",
 ];
 
@@ -337,6 +340,10 @@ mod tests {
             "there is no map yet"
         );
         assert_eq!(text(4, "PERFORM"), Ok(DialectOrder::Ask(RequestBody::Locate)));
+        assert!(
+            matches!(text(5, r#"{"coordinates":{"x":1,"y":2}}"#), Err(NoOrder::Body(_))),
+            "there is no map yet"
+        );
         assert_eq!(text(0, &" ".repeat(9_000)), Err(NoOrder::TooLong));
     }
 }

@@ -32,6 +32,7 @@ pub(crate) fn PlaceList(store: Store) -> impl IntoView {
             <div class="draw-tools">
                 {tool(store, Tool::CleanZone, "draw-clean", words().home.draw_clean)}
                 {tool(store, Tool::Spot, "draw-spot", words().home.draw_spot)}
+                {tool(store, Tool::GoTo, "draw-go", words().home.draw_go)}
                 {tool(store, Tool::AvoidZone, "draw-avoid", words().home.draw_avoid)}
             </div>
         </Show>

@@ -186,9 +186,9 @@ fn Inhibits(store: Store) -> impl IntoView {
 fn Lately(store: Store) -> impl IntoView {
     let works = move || {
         store.status.with(|status| {
-            status
-                .as_ref()
-                .is_some_and(|status| matches!(status.state.as_str(), "cleaning" | "spot" | "docking"))
+            status.as_ref().is_some_and(|status| {
+                matches!(status.state.as_str(), "cleaning" | "spot" | "going" | "docking")
+            })
         })
     };
     let text = Memo::new(move |_| {

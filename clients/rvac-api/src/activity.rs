@@ -13,6 +13,8 @@ pub enum Activity {
     Cleaning,
     /// Cleans a small disc.
     Spot,
+    /// Drives to a place without cleaning.
+    Going,
     /// Drives to its dock.
     Docking,
     /// On the dock.
@@ -55,12 +57,13 @@ const fn words(
 
 impl Activity {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Disconnected,
         Self::Idle,
         Self::Starting,
         Self::Cleaning,
         Self::Spot,
+        Self::Going,
         Self::Docking,
         Self::Docked,
         Self::Manual,
@@ -78,6 +81,7 @@ impl Activity {
             Self::Starting => "starting",
             Self::Cleaning => "cleaning",
             Self::Spot => "spot",
+            Self::Going => "going",
             Self::Docking => "docking",
             Self::Docked => "docked",
             Self::Manual => "manual",
@@ -101,6 +105,7 @@ impl Activity {
             Self::Idle => words("idle", ("idle", "none"), 0x00),
             Self::Starting | Self::Cleaning => words("cleaning", ("cleaning", "none"), 0x01),
             Self::Spot => words("cleaning", ("cleaning", "spot"), 0x01),
+            Self::Going => words("cleaning", ("moving", "target"), 0x01),
             Self::Docking => words("returning", ("returning", "none"), 0x40),
             Self::Docked => words("docked", ("docked", "none"), 0x42),
             Self::Manual => words("cleaning", ("manual_control", "none"), 0x01),
@@ -112,7 +117,7 @@ impl Activity {
     #[must_use]
     pub const fn moves(self) -> bool {
         match self {
-            Self::Starting | Self::Cleaning | Self::Spot | Self::Docking | Self::Manual => true,
+            Self::Starting | Self::Cleaning | Self::Spot | Self::Going | Self::Docking | Self::Manual => true,
             Self::Disconnected | Self::Idle | Self::Docked | Self::Paused | Self::Stuck | Self::Error => {
                 false
             }

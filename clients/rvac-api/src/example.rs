@@ -2,7 +2,7 @@
 
 /// One of each, as it stands on the wire, without a number.
 #[rustfmt::skip]
-const EXAMPLES: [&str; 69] = [
+const EXAMPLES: [&str; 70] = [
     r#"{"c":"hello","name":"phone"}"#,
     r#"{"c":"watch","topics":["status","log"]}"#,
     r#"{"c":"estimate","parts":[{"zone":[[0.5,0.5],[2.0,0.5],[2.0,1.5],[0.5,1.5]]},{"spot":[1.0,1.0]}],"passes":2,"avoid":[{"wall":[[0.0,0.5],[1.0,0.5]]}]}"#,
@@ -22,6 +22,7 @@ const EXAMPLES: [&str; 69] = [
     r#"{"c":"start","strategy":"bounce"}"#,
     r#"{"c":"clean","parts":[{"room":1},{"place":1}],"passes":1,"pattern":"contour"}"#,
     r#"{"c":"spot"}"#,
+    r#"{"c":"go-to","x":1.0,"y":0.5}"#,
     r#"{"c":"pause"}"#,
     r#"{"c":"resume"}"#,
     r#"{"c":"dock"}"#,

@@ -87,6 +87,8 @@ pub enum RunJob {
     },
     /// To clean a small disc.
     Spot,
+    /// To go to a place.
+    GoTo,
     /// To go to the dock.
     Dock,
 }

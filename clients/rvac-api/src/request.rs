@@ -179,6 +179,13 @@ pub enum RequestBody {
     },
     /// Cleans a small disc around the present place.
     Spot,
+    /// Drives to a place on the map without cleaning, and stands there.
+    GoTo {
+        /// Place on the map, metres.
+        x: f64,
+        /// Place on the map, metres.
+        y: f64,
+    },
     /// Stands still, keeps the job.
     Pause,
     /// Goes on with the paused job.

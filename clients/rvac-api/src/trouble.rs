@@ -176,6 +176,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("not-worth-the-time", Some(Trouble::Route)),
     ("crumbs-left", Some(Trouble::BatteryLow)),
     ("finished", None),
+    ("arrived", None),
     ("continued", None),
     ("restored", None),
     ("not-armed", None),

@@ -4,7 +4,7 @@ use crate::Role;
 
 /// The least role that may ask each request over the network, by its word in `c`. On the robot's own socket all may.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 69] = [
+pub const VERBS: [(&str, Role); 70] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -24,6 +24,7 @@ pub const VERBS: [(&str, Role); 69] = [
     ("start",           Role::Drive),
     ("clean",           Role::Drive),
     ("spot",            Role::Drive),
+    ("go-to",           Role::Drive),
     ("pause",           Role::Drive),
     ("resume",          Role::Drive),
     ("dock",            Role::Drive),

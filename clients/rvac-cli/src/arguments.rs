@@ -150,6 +150,14 @@ pub(crate) enum Subcommand {
     Dock(Daemon),
     /// Clean a small disc around the robot.
     Spot(Daemon),
+    /// Drive to a place without cleaning, and stand there.
+    Go {
+        /// Where, metres in the map.
+        #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+        place: Place,
+        #[command(flatten)]
+        daemon: Daemon,
+    },
     /// Beep, so that you can find the robot.
     Locate(Daemon),
 }

@@ -83,6 +83,10 @@ fn main() -> ExitCode {
         Subcommand::Resume(daemon) => control::send(rvac_api::RequestBody::Resume, &daemon),
         Subcommand::Dock(daemon) => control::send(rvac_api::RequestBody::Dock, &daemon),
         Subcommand::Spot(daemon) => control::send(rvac_api::RequestBody::Spot, &daemon),
+        Subcommand::Go { place, daemon } => {
+            let (x, y) = (place.x_m, place.y_m);
+            control::send(rvac_api::RequestBody::GoTo { x, y }, &daemon)
+        }
         Subcommand::Locate(daemon) => control::send(rvac_api::RequestBody::Locate, &daemon),
     };
     match outcome {

@@ -68,6 +68,7 @@ impl ContentHash {
             Some(JobKind::Clean(StrategyName::WallBounce)) => 4,
             Some(JobKind::Spot) => 5,
             Some(JobKind::Dock) => 6,
+            Some(JobKind::GoTo) => 7,
         });
     }
 

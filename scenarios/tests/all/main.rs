@@ -10,6 +10,7 @@ mod edges;
 mod floors;
 mod forbidden;
 mod gaps;
+mod go_to;
 mod halls;
 mod health;
 mod held_stick;

@@ -79,6 +79,7 @@ const fn job_name(job: &RunJob) -> &'static str {
     match job {
         RunJob::Clean { .. } => "clean",
         RunJob::Spot => "spot",
+        RunJob::GoTo => "go-to",
         RunJob::Dock => "dock",
     }
 }

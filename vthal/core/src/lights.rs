@@ -25,6 +25,7 @@ impl Lights {
             BehaviorState::Starting
             | BehaviorState::Cleaning
             | BehaviorState::Spot
+            | BehaviorState::Going
             | BehaviorState::Docking
             | BehaviorState::Manual => Self {
                 working: true,

@@ -21,13 +21,14 @@ pub(super) const WANTS: &str =
 const ROOT: &str = "brain/src/";
 
 /// The layers, the lowest first: each may use those before it.
-const LAYERS: [&str; 9] = [
+const LAYERS: [&str; 10] = [
     "model",
     "mapping",
     "localization",
     "navigation",
     "recovery",
     "coverage",
+    "travel",
     "docking",
     "behavior",
     "brain",

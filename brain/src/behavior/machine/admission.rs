@@ -35,6 +35,16 @@ impl Behavior {
                 coverage::admit_reach(order, map, from, self.config.body.radius_m)
             }
             JobCommand::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),
+            JobCommand::GoTo { place } => {
+                let order = CleaningOrder::of_place(*place);
+                map.admit_order(&order)?;
+                self.admit_job(JobKind::GoTo, &order)?;
+                if !estimate.is_sure() {
+                    return Err(JobRefusal::PlaceUnknown);
+                }
+                let from = estimate.pose.position();
+                coverage::admit_reach(&order, map, from, self.config.body.radius_m)
+            }
             JobCommand::Dock => self.admit_dock(),
             JobCommand::Pause => self.admit_pause(),
             JobCommand::Resume => self.admit_resume(),
@@ -178,6 +188,7 @@ impl Behavior {
                 self.begin(kind, order.clone(), context);
             }
             JobCommand::Spot => self.begin(JobKind::Spot, whole, context),
+            JobCommand::GoTo { place } => self.begin(JobKind::GoTo, CleaningOrder::of_place(place), context),
             JobCommand::Dock => self.send_home(context),
             JobCommand::Pause => self.pause(context),
             JobCommand::Resume => {

@@ -118,7 +118,8 @@ impl Behavior {
         let figures = self.figures();
         let before = self.job.replace(Job::new(JobKind::Dock, figures));
         let goes_on = matches!(reason, Reason::BatteryLow | Reason::LookAgain);
-        self.put_off = before.filter(|job| goes_on && job.kind != JobKind::Dock);
+        // Nobody waits any more where it was sent hours ago.
+        self.put_off = before.filter(|job| goes_on && matches!(job.kind, JobKind::Clean(_) | JobKind::Spot));
         if let Some(job) = &mut self.put_off {
             job.interrupt();
         }

@@ -114,6 +114,28 @@ async fn a_wall_and_a_name_are_taken_back_and_done_again_for_all_clients() {
 }
 
 #[tokio::test]
+async fn the_robot_is_sent_to_a_place_that_is_tapped_and_stands_there() {
+    let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#draw-go").await;
+    browser
+        .says("sketch-bar", "Tap where the robot shall drive")
+        .await;
+    keys(browser, &["ArrowLeft", "ArrowLeft", "Enter"]).await;
+    browser.until_state(&["going"]).await;
+    browser.shot("desktop-going").await;
+    browser
+        .until_within(
+            std::time::Duration::from_secs(120),
+            "return document.getElementById('now').dataset.state === 'idle'",
+        )
+        .await;
+    browser.says("now", "It stands where it was sent").await;
+}
+
+#[tokio::test]
 async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     let Some(visit) = Visit::begin_among_rooms(Screen::Desktop).await else {
         return;

@@ -87,10 +87,10 @@ pub fn headline(words: &Words, status: &Status) -> String {
     }
 }
 
-/// What became of a job that is over, in one line; nothing of ways to the dock.
+/// What became of a job that is over, in one line; nothing of drives to the dock or to a place.
 #[must_use]
 pub fn run_summary(words: &Words, run: &Run) -> Option<String> {
-    if run.job == RunJob::Dock {
+    if matches!(run.job, RunJob::Dock | RunJob::GoTo) {
         return None;
     }
     let texts = &words.status;

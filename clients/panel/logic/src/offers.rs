@@ -165,7 +165,7 @@ fn start(state: &str) -> Offer {
 
 fn pause(state: &str) -> Offer {
     match state {
-        "starting" | "cleaning" | "spot" | "docking" | "paused" => Offer::Ready,
+        "starting" | "cleaning" | "spot" | "going" | "docking" | "paused" => Offer::Ready,
         "disconnected" => AWAY,
         _ => Offer::NotNow(Wait::NoJob),
     }

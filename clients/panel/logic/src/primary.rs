@@ -33,7 +33,7 @@ impl Primary {
     pub fn of(status: Option<&Status>, wishes: Wishes) -> Self {
         match status.map_or("disconnected", |status| status.state.as_str()) {
             "paused" => Self::Resume,
-            "starting" | "cleaning" | "spot" | "docking" => Self::Pause,
+            "starting" | "cleaning" | "spot" | "going" | "docking" => Self::Pause,
             _ if wishes.chosen => Self::CleanSelected,
             _ => Self::Start,
         }

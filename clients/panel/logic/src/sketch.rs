@@ -27,6 +27,8 @@ pub enum Tool {
     CleanZone,
     /// Set a spot to be cleaned.
     Spot,
+    /// Set the place to which the robot is sent.
+    GoTo,
     /// Draw a zone out of which the robot keeps for one job.
     AvoidZone,
     /// Show where the dock is now: the robot's place on it, and what it faces.
@@ -39,7 +41,7 @@ impl Tool {
     pub const fn changes_home(self) -> bool {
         match self {
             Self::Wall | Self::Zone | Self::Cut | Self::Dock => true,
-            Self::Choose | Self::CleanZone | Self::Spot | Self::AvoidZone => false,
+            Self::Choose | Self::CleanZone | Self::Spot | Self::GoTo | Self::AvoidZone => false,
         }
     }
 }
@@ -53,6 +55,8 @@ pub enum Drawn {
     Clean(Vec<[f64; 2]>),
     /// A spot to be cleaned, by its middle.
     Spot([f64; 2]),
+    /// A place to which the robot is sent.
+    Place([f64; 2]),
     /// Floor that is forbidden for one job.
     Avoid(NoGoShape),
     /// A line that cuts a room in two.
@@ -88,7 +92,7 @@ impl Sketch {
     /// Whether one place is all that is drawn.
     #[must_use]
     pub fn is_place(self) -> bool {
-        self.tool == Tool::Spot
+        matches!(self.tool, Tool::Spot | Tool::GoTo)
     }
 
     /// The tool in hand.
@@ -103,11 +107,16 @@ impl Sketch {
         self.first
     }
 
-    /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down. A spot has only one.
+    /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down. A spot, and a place to go to, have only one.
     pub fn point(&mut self, place: MapPoint) -> Option<Drawn> {
         if self.is_place() {
+            let place = place.into();
+            let drawn = match self.tool {
+                Tool::GoTo => Drawn::Place(place),
+                _ => Drawn::Spot(place),
+            };
             self.take(Tool::Choose);
-            return Some(Drawn::Spot(place.into()));
+            return Some(drawn);
         }
         let Some(first) = self.first else {
             self.first = (self.tool != Tool::Choose).then_some(place);
@@ -127,7 +136,7 @@ impl Sketch {
         let (wide, high) = ((far_x - x).abs(), (far_y - y).abs());
         let corners = || vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]];
         let drawn = match self.tool {
-            Tool::Choose | Tool::Spot => return None,
+            Tool::Choose | Tool::Spot | Tool::GoTo => return None,
             Tool::Wall | Tool::Cut => {
                 let line = [[x, y], [far_x, far_y]];
                 let drawn = if self.tool == Tool::Cut {
@@ -161,7 +170,7 @@ impl Sketch {
         if self.is_too_small {
             return Some(match self.tool {
                 Tool::Wall | Tool::Cut | Tool::Dock => texts.too_short,
-                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => {
+                Tool::Choose | Tool::Spot | Tool::GoTo | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => {
                     texts.too_narrow
                 }
             });
@@ -169,6 +178,7 @@ impl Sketch {
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
             (Tool::Spot, _) => Some(texts.spot_place),
+            (Tool::GoTo, _) => Some(texts.go_place),
             (Tool::Wall, None) => Some(texts.wall_first),
             (Tool::Wall, Some(_)) => Some(texts.wall_second),
             (Tool::Dock, None) => Some(texts.dock_first),

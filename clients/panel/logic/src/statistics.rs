@@ -55,6 +55,7 @@ fn jobs(words: &Words, sums: &Statistics) -> String {
     let kinds = [
         (count(sums, "clean"), texts.count_cleanings),
         (count(sums, "spot"), texts.count_spots),
+        (count(sums, "go-to"), texts.count_drives),
         (count(sums, "dock"), texts.count_returns),
     ];
     join(kinds)

@@ -175,6 +175,7 @@ impl Store {
             }
             Some(Drawn::Clean(corners)) => self.choose(|choice| choice.add_zone(corners)),
             Some(Drawn::Spot(middle)) => self.choose(|choice| choice.add_spot(middle)),
+            Some(Drawn::Place([x, y])) => self.ask(RequestBody::GoTo { x, y }),
             Some(Drawn::Avoid(shape)) => self.choose(|choice| choice.keep_out_of(shape)),
         }
         self.orders.pointer.set(None);

@@ -27,6 +27,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("not-worth-the-time", "Too much stands in the way of the rest: six minutes won less than half a square metre.", "Move chairs and other things away there, or make it a no-go zone."),
     entry("crumbs-left", "The battery is low, and so little is left that another charge would mostly go into the way there and back.", "Send it to a room if that floor matters."),
     entry("finished", "The job is done.", ""),
+    entry("arrived", "It stands where it was sent.", ""),
     entry("continued", "It goes on by itself after an interruption.", ""),
     entry("restored", "It takes up the job again after a restart.", ""),
     entry("not-armed", "The robot has not been released to move since it started, stopped or reconnected.", "It releases itself when you start a job."),

@@ -146,6 +146,7 @@ fn job_name(job: &RunJob) -> &'static str {
         } if rooms.is_empty() => "clean",
         RunJob::Clean { .. } => "clean in",
         RunJob::Spot => "spot",
+        RunJob::GoTo => "go",
         RunJob::Dock => "dock",
     }
 }

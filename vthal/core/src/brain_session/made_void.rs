@@ -22,6 +22,7 @@ fn ends_with_stop(command: &Command) -> bool {
             JobCommand::Clean { .. }
             | JobCommand::CleanParts { .. }
             | JobCommand::Spot
+            | JobCommand::GoTo { .. }
             | JobCommand::Dock
             | JobCommand::Pause
             | JobCommand::Resume

@@ -145,6 +145,7 @@ pub(super) fn cause_of(command: &Command) -> Option<RunCause> {
             JobCommand::Clean { .. }
             | JobCommand::CleanParts { .. }
             | JobCommand::Spot
+            | JobCommand::GoTo { .. }
             | JobCommand::Dock => Some(RunCause::Job),
             JobCommand::Manual { .. } => Some(RunCause::Manual),
             JobCommand::Pause

@@ -1,7 +1,7 @@
 //! What clients ask, sorted by the desks that do it. Each desk has one closed set of requests; what it can take as it is stands here as
 //! the desk's own change.
 
-use brain::{MapEdit, NoGo, NoGoEdit, PlaceEdit, Pose2, RoomEdit, RoomName};
+use brain::{MapEdit, NoGo, NoGoEdit, PlaceEdit, Point2, Pose2, RoomEdit, RoomName};
 use rvac_api::{
     CleaningPower, JobOrder, NoGoShape, RequestBody as Body, RoomNaming, RoomSplitting, Topic, short_number,
 };
@@ -61,6 +61,7 @@ pub(crate) enum JobRequest {
     /// The job of a schedule, now.
     OfSchedule(u32),
     Spot,
+    GoTo(Point2),
     Pause,
     Resume,
     Dock,
@@ -117,6 +118,7 @@ impl DeskRequest {
             Body::Estimate(order) => Self::Job(JobRequest::Estimate(order)),
             Body::RunSchedule { number } => Self::Job(JobRequest::OfSchedule(number)),
             Body::Spot => Self::Job(JobRequest::Spot), Body::Pause => Self::Job(JobRequest::Pause),
+            Body::GoTo { x, y } => Self::Job(JobRequest::GoTo(Point2 { x_m: x, y_m: y })),
             Body::Resume => Self::Job(JobRequest::Resume), Body::Dock => Self::Job(JobRequest::Dock),
             Body::Stop => Self::Hand(HandRequest::Stop), Body::Release => Self::Hand(HandRequest::Release),
             Body::ClaimButtons { ms } => Self::Hand(HandRequest::ClaimButtons(ms)),

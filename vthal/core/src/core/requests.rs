@@ -183,6 +183,7 @@ impl Core {
                 command
             }
             JobRequest::Spot => self.admitted(now_us, asker.client, JobCommand::Spot)?,
+            JobRequest::GoTo(place) => self.admitted(now_us, asker.client, JobCommand::GoTo { place })?,
             JobRequest::Pause => self.admitted(now_us, asker.client, JobCommand::Pause)?,
             JobRequest::Resume => self.admitted(now_us, asker.client, JobCommand::Resume)?,
             JobRequest::Dock => self.admitted(now_us, asker.client, JobCommand::Dock)?,

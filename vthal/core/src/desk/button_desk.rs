@@ -107,6 +107,7 @@ impl ButtonDesk {
             BehaviorState::Starting
             | BehaviorState::Cleaning
             | BehaviorState::Spot
+            | BehaviorState::Going
             | BehaviorState::Docking => JobCommand::Pause,
             BehaviorState::Manual => JobCommand::ManualEnd,
             BehaviorState::Paused
@@ -133,6 +134,7 @@ impl ButtonDesk {
             BehaviorState::Starting
             | BehaviorState::Cleaning
             | BehaviorState::Spot
+            | BehaviorState::Going
             | BehaviorState::Docking
             | BehaviorState::Manual
             | BehaviorState::Disconnected => None,

@@ -85,7 +85,11 @@ pub(crate) fn works(brain_session: &BrainSession) -> bool {
     let status = brain_session.brain().status();
     let active = matches!(
         status.state,
-        BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
+        BehaviorState::Starting
+            | BehaviorState::Cleaning
+            | BehaviorState::Spot
+            | BehaviorState::Going
+            | BehaviorState::Docking
     );
     active || status.resumable || brain_session.brain().waits_on_dock()
 }

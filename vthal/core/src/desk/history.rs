@@ -226,6 +226,7 @@ fn ordered_job(command: &JobCommand, brain: &Brain) -> Option<RunJob> {
             })
         }
         JobCommand::Spot => Some(RunJob::Spot),
+        JobCommand::GoTo { .. } => Some(RunJob::GoTo),
         JobCommand::Dock => Some(RunJob::Dock),
         JobCommand::Pause
         | JobCommand::Resume

@@ -234,6 +234,7 @@ fn job_of(kind: JobKind) -> RunJob {
             passes: 1,
         },
         JobKind::Spot => RunJob::Spot,
+        JobKind::GoTo => RunJob::GoTo,
         JobKind::Dock => RunJob::Dock,
     }
 }

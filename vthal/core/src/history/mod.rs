@@ -26,7 +26,7 @@ pub fn cut_short(checkpoint: Checkpoint) -> Option<RunRecord> {
     record.run.floor = checkpoint.floor;
     let picture = match record.run.job {
         // The checkpoint also contains the path of the job before, and the two cannot be distinguished.
-        RunJob::Dock => None,
+        RunJob::Dock | RunJob::GoTo => None,
         RunJob::Clean { .. } | RunJob::Spot => Some(picture::of_checkpoint(&checkpoint.brain)),
     };
     Some(RunRecord { picture, ..record })

@@ -71,7 +71,7 @@ impl OpenRun {
         (moment, start_s): (&Moment<'_>, Option<i64>),
     ) -> Self {
         let path_from = match job {
-            RunJob::Dock => moment.brain.map().snapshot().path.len(),
+            RunJob::Dock | RunJob::GoTo => moment.brain.map().snapshot().path.len(),
             RunJob::Clean { .. } | RunJob::Spot => 0,
         };
         let Ending { result, reason, text } = Ending::cut_short();
@@ -183,7 +183,7 @@ impl OpenRun {
         }
         match kind {
             Some(JobKind::Dock) => {}
-            Some(JobKind::Clean(_) | JobKind::Spot) => self.turned_home = None,
+            Some(JobKind::Clean(_) | JobKind::Spot | JobKind::GoTo) => self.turned_home = None,
             None => {
                 self.figures = moment.brain.job();
                 if self.over_us.is_none() {
@@ -229,7 +229,10 @@ impl OpenRun {
                 let cause = StopCause::of(decision, &evidence);
                 self.stop((moment.now_us, moment.brain), cause, hand);
             }
-            DecisionKind::StateStarting | DecisionKind::StateCleaning | DecisionKind::StateSpot => {
+            DecisionKind::StateStarting
+            | DecisionKind::StateCleaning
+            | DecisionKind::StateSpot
+            | DecisionKind::StateGoing => {
                 self.go_on(moment.now_us);
             }
             DecisionKind::StateDocking => {

@@ -64,11 +64,11 @@ fn of_job(map: &Map, (job, path_from): (&RunJob, usize)) -> RunPicture {
         .get(path_from.min(part.path.len())..)
         .unwrap_or_default();
     let swept = match job {
-        RunJob::Dock => Vec::new(),
+        RunJob::Dock | RunJob::GoTo => Vec::new(),
         RunJob::Clean { .. } | RunJob::Spot => map.swept_runs(),
     };
     let hazards = match job {
-        RunJob::Dock => &[],
+        RunJob::Dock | RunJob::GoTo => &[],
         RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
     drawn(&swept, path, hazards)

@@ -2,7 +2,7 @@
 //!
 //! All forms are written without the level of nesting that [`Command`] has: `"spot"`, `{"c":"remove-no-go","number":2}`.
 
-use brain::{Command, JobCommand, StrategyName};
+use brain::{Command, JobCommand, Point2, StrategyName};
 use rvac_api::RequestBody;
 use serde::{Deserialize, Serialize};
 use vthal_core::api_forms;
@@ -53,6 +53,13 @@ pub enum GivenJobCommand {
     CleanParts(GivenOrder),
     /// [`JobCommand::Spot`]
     Spot,
+    /// [`JobCommand::GoTo`]
+    GoTo {
+        /// Metres in the map.
+        x_m: f64,
+        /// The same.
+        y_m: f64,
+    },
     /// [`JobCommand::Pause`]
     Pause,
     /// [`JobCommand::Resume`]
@@ -84,6 +91,10 @@ impl From<&JobCommand> for GivenJobCommand {
             JobCommand::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
             JobCommand::CleanParts { order } => Self::CleanParts(order.into()),
             JobCommand::Spot => Self::Spot,
+            JobCommand::GoTo { place } => Self::GoTo {
+                x_m: place.x_m,
+                y_m: place.y_m,
+            },
             JobCommand::Pause => Self::Pause,
             JobCommand::Resume => Self::Resume,
             JobCommand::Stop => Self::Stop,
@@ -115,6 +126,9 @@ impl GivenJobCommand {
                 order: order.to_brain()?,
             },
             Self::Spot => JobCommand::Spot,
+            Self::GoTo { x_m, y_m } => JobCommand::GoTo {
+                place: Point2 { x_m: *x_m, y_m: *y_m },
+            },
             Self::Pause => JobCommand::Pause,
             Self::Resume => JobCommand::Resume,
             Self::Stop => JobCommand::Stop,

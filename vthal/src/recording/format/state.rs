@@ -66,6 +66,7 @@ struct JobState {
 enum JobName {
     Clean(String),
     Spot,
+    GoTo,
     Dock,
 }
 
@@ -243,6 +244,7 @@ impl From<JobKind> for JobName {
         match kind {
             JobKind::Clean(strategy) => Self::Clean(strategy.name().to_owned()),
             JobKind::Spot => Self::Spot,
+            JobKind::GoTo => Self::GoTo,
             JobKind::Dock => Self::Dock,
         }
     }
@@ -253,6 +255,7 @@ impl JobName {
         Some(match self {
             Self::Clean(strategy) => JobKind::Clean(StrategyName::from_name(strategy)?),
             Self::Spot => JobKind::Spot,
+            Self::GoTo => JobKind::GoTo,
             Self::Dock => JobKind::Dock,
         })
     }

@@ -40,6 +40,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("not-worth-the-time", "Ülejäänu juures on liiga palju asju ees: kuue minutiga lisandus alla poole ruutmeetri.", "Tõsta toolid ja muud asjad sealt ära või tee sellest keeluala."),
     entry("crumbs-left", "Aku on tühjenemas ja koristamata on nii vähe, et uus laadimine kuluks peamiselt sõidule sinna ja tagasi.", "Kui see põrand on tähtis, saada robot sellesse tuppa."),
     entry("finished", "Töö on tehtud.", ""),
+    entry("arrived", "Robot on seal, kuhu ta saadeti.", ""),
     entry("continued", "Robot jätkab pärast katkestust ise.", ""),
     entry("restored", "Robot jätkab pärast taaskäivitust poolelijäänud tööd.", ""),
     entry("not-armed", "Robotil ei ole pärast käivitumist, peatumist või uut ühendust veel luba liikuda.", "Luba tuleb tööd alustades iseenesest."),

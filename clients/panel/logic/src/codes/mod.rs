@@ -31,6 +31,7 @@ pub fn state_title(words: &Words, state: &str) -> &'static str {
         "starting" => titles.starting,
         "cleaning" => titles.cleaning,
         "spot" => titles.spot,
+        "going" => titles.going,
         "docking" => titles.docking,
         "docked" => titles.docked,
         "manual" => titles.manual,

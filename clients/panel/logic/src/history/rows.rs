@@ -64,6 +64,7 @@ fn job_text(words: &Words, job: &RunJob) -> String {
             ..
         } => (rooms, zones, spots, passes),
         RunJob::Spot => return texts.spot.to_owned(),
+        RunJob::GoTo => return texts.to_place.to_owned(),
         RunJob::Dock => return texts.to_dock.to_owned(),
     };
     let mut parts: Vec<String> = rooms.iter().map(|room| room_here_text(words, room)).collect();

@@ -111,6 +111,7 @@ screen! {
         starting: "Starting", "Alustab";
         cleaning: "Cleaning", "Koristab";
         spot: "Cleaning a spot", "Koristab üht kohta";
+        going: "Driving to a place", "Sõidab määratud kohta";
         docking: "Returning to the dock", "Teel dokki";
         docked: "On the dock", "Dokis";
         manual: "Manual control", "Käsijuhtimisel";

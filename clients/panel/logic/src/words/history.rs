@@ -17,6 +17,7 @@ screen! {
         since_day[1]: "Since {0}", "Alates {0}";
         count_cleanings[1]: "cleanings: {0}", "koristusi: {0}";
         count_spots[1]: "spots: {0}", "üksikuid kohti: {0}";
+        count_drives[1]: "drives to a place: {0}", "sõite määratud kohta: {0}";
         count_returns[1]: "returns to the dock: {0}", "naasmisi dokki: {0}";
         ended_by: "Ends", "Lõpud";
         end_finished[1]: "{0} finished", "{0} lõpetatud";
@@ -64,6 +65,7 @@ screen! {
         clock_set_forward[1]: "the clock was set forward by {0}", "kell pandi vahepeal {0} võrra edasi";
         from_to[2]: "{0} to {1}", "{0} kuni {1}";
         spot: "Spot", "Üks koht";
+        to_place: "To a place", "Määratud kohta";
         to_dock: "To the dock", "Dokki";
         a_zone: "a zone", "üks ala";
         zones[1]: "{0} zones", "{0} ala";

@@ -65,6 +65,7 @@ screen! {
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
         draw_spot: "Set a spot to clean", "Märgi koristatav koht";
+        draw_go: "Send it to a place", "Saada robot kohta";
         draw_avoid: "No-go for this job", "Keeluala selleks korraks";
         set_room: "Settings", "Seaded";
         set_room_named[1]: "Settings of {0}", "Toa „{0}“ seaded";

@@ -52,6 +52,8 @@ screen! {
         handle_corner[1]: "Corner {0}", "Nurk {0}";
         handle_middle: "All of it", "Tervikuna";
         take_out[1]: "Remove: {0}", "Võta välja: {0}";
+        go_place: "Tap where the robot shall drive, or move that to the cross and press Enter. It does not clean on the way.",
+            "Puuduta kohta, kuhu robot peab sõitma, või nihuta see ristile ja vajuta Enter. Teel ta ei korista.";
         spot_place: "Tap the middle of the spot, or move it to the cross and press Enter. A circle of one metre is cleaned.",
             "Puuduta koha keskpunkti või nihuta see ristile ja vajuta Enter. Koristatakse meetrilaiune ring.";
         whole_home: "The whole home", "Kogu kodu";

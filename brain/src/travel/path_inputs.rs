@@ -1,4 +1,4 @@
-//! What a search for a path to the dock is made from, and the search itself.
+//! What a search for a path is made from, and the search itself.
 
 use super::parameters::TRAVEL;
 use super::unseen_specks::close_specks;
@@ -138,7 +138,7 @@ fn is_beside_floor(knowledge: &Raster<CellKnowledge>, index: usize) -> bool {
 }
 
 /// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
-pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
+pub(crate) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
     let mut inputs = PathInputs::of(situation, goals(dock));
     inputs.dock = Some(dock);
     Gradual::new(async move { Some(length_m(&inputs.first_path(&TRAVEL.clearances_m[1..2]).await?)) })
@@ -170,10 +170,10 @@ pub(super) fn length_m(segments: &[PathSegment]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{PathInputs, goals, length_m};
-    use crate::docking::parameters::TRAVEL;
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::gradual::at_once;
+    use crate::travel::parameters::TRAVEL;
 
     /// A dock that looks along x, and the floor of a robot that left it, turned aside at once and drove away along y.
     fn turned_aside() -> PathInputs {

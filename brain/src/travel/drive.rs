@@ -1,4 +1,4 @@
-//! The path by the map to a place in front of the dock, or to one where a beam was received.
+//! The path by the map to one of several places.
 //!
 //! Obstructions are remembered for some minutes and avoided. When no path is left they are forgotten, because people and
 //! chairs move, and the robot tries again. When the map still has none, the robot waits, and then what is occupied now and was
@@ -21,7 +21,7 @@ use crate::navigation::{
 
 /// The drive.
 #[derive(Debug)]
-pub(super) struct Travel {
+pub(crate) struct Travel {
     goals: Vec<Goal>,
     /// Pose of a docked robot, when the goals lie before it.
     dock: Option<Pose2>,
@@ -41,7 +41,7 @@ pub(super) struct Travel {
 
 /// What floor counts as where something was met since.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum PastFloor {
+pub(crate) enum PastFloor {
     /// What was met.
     Superseded,
     /// The same, until no path is left.
@@ -52,7 +52,7 @@ pub(super) enum PastFloor {
 
 /// State of the drive after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum TravelStep {
+pub(crate) enum TravelStep {
     /// It goes on.
     Going(Motion),
     /// The robot is there.
@@ -65,7 +65,7 @@ pub(super) enum TravelStep {
 
 impl Travel {
     /// To the place in front of `dock`, the pose of a docked robot.
-    pub(super) fn to_dock(dock: Pose2, past: PastFloor) -> Self {
+    pub(crate) fn to_dock(dock: Pose2, past: PastFloor) -> Self {
         Self {
             past,
             dock: Some(dock),
@@ -74,8 +74,16 @@ impl Travel {
     }
 
     /// To one of the places where a beam was received.
-    pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
+    pub(crate) fn to_beam(heard_at: Vec<Goal>) -> Self {
         Self::to(heard_at, &TRAVEL.clearances_back_m, Reason::DockHeard)
+    }
+
+    /// To one of these places, which a person has named.
+    pub(super) fn to_place(goals: Vec<Goal>) -> Self {
+        Self {
+            past: PastFloor::Spare,
+            ..Self::to(goals, &TRAVEL.clearances_m, Reason::Command)
+        }
     }
 
     fn to(goals: Vec<Goal>, clearances_m: &'static [f64], reason: Reason) -> Self {
@@ -97,18 +105,18 @@ impl Travel {
     }
 
     /// Whether an evasion is in progress.
-    pub(super) fn is_evading(&self) -> bool {
+    pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
     /// Somebody else moved the robot.
-    pub(super) fn interrupted(&mut self) {
+    pub(crate) fn interrupted(&mut self) {
         self.follower = None;
         self.path_search = None;
         self.evasion = None;
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         match Evasion::pursue(&mut self.evasion, situation) {
             Some(Ok(motion)) => return TravelStep::Going(motion),
             Some(Err(reason)) => {
@@ -131,6 +139,13 @@ impl Travel {
             }
         }
         self.plan_on(situation, context)
+    }
+
+    /// Corners of the path from here on.
+    pub(super) fn planned_path(&self) -> Vec<Point2> {
+        self.follower
+            .as_ref()
+            .map_or_else(Vec::new, PathFollower::remaining_path)
     }
 
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
@@ -160,7 +175,11 @@ impl Travel {
         let is_blocked = path_search.is_blocked;
         self.path_search = None;
         if let Some(segments) = found {
-            context.decide(DecisionKind::DockWay, self.reason, length_m(&segments));
+            let kind = match self.reason {
+                Reason::Command => DecisionKind::PlaceWay,
+                _ => DecisionKind::DockWay,
+            };
+            context.decide(kind, self.reason, length_m(&segments));
             self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
