@@ -88,6 +88,8 @@ pub(crate) enum Kind {
     Nothing,
     /// Strangers that ask for a large file twice and take nothing.
     NeverRead,
+    /// Strangers that fetch a large file again and again, as fast as it comes.
+    Downloads,
     /// Connections that come as fast as they can, and stay until the peer has its share.
     Crowd,
     /// Handshakes that are begun and not finished.
@@ -118,9 +120,10 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// All of them.
-    pub(crate) const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 16] = [
         Self::Nothing,
         Self::NeverRead,
+        Self::Downloads,
         Self::Crowd,
         Self::HalfHandshakes,
         Self::Handshakes,
@@ -141,6 +144,7 @@ impl Kind {
         match self {
             Self::Nothing => "nothing",
             Self::NeverRead => "never-read",
+            Self::Downloads => "downloads",
             Self::Crowd => "crowd",
             Self::HalfHandshakes => "half-handshakes",
             Self::Handshakes => "handshakes",
@@ -212,6 +216,7 @@ impl Besieger<'_> {
         match self.kind {
             Kind::Nothing => self.siege.wait(HELD_FOR),
             Kind::NeverRead => self.ask_and_not_read()?,
+            Kind::Downloads => self.download()?,
             Kind::Crowd => self.crowd()?,
             Kind::HalfHandshakes => self.begin_handshakes()?,
             Kind::Handshakes => drop(self.door.shake_hands(&self.caller, PATIENCE)?),
@@ -235,6 +240,19 @@ impl Besieger<'_> {
         stream.write_all(request.repeat(2).as_bytes())?;
         stream.flush()?;
         self.siege.wait(HELD_FOR);
+        Ok(())
+    }
+
+    fn download(&self) -> anyhow::Result<()> {
+        let mut stream = self.door.shake_hands(&self.caller, PATIENCE)?;
+        let request = format!("GET /{LARGE_FILE} HTTP/1.1\r\n{}\r\n", self.door.headers(&self.caller));
+        let mut part = vec![0; LARGE_FILE_BYTES];
+        while !self.siege.is_over() {
+            stream.write_all(request.as_bytes())?;
+            stream.flush()?;
+            stream.read_exact(&mut part)?;
+            self.siege.done.fetch_add(1, Ordering::Relaxed);
+        }
         Ok(())
     }
 
