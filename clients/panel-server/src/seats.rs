@@ -64,7 +64,9 @@ impl Seats {
         let mut table = self.table();
         let of_address = table.taken.values().filter(|taken| taken.address == address);
         if of_address.count() >= OF_ONE_MAX {
-            table.part_for_one_more(Some(address)).ok_or(NoSeat::OfOneAddress)?;
+            table
+                .part_for_one_more(Some(address))
+                .ok_or(NoSeat::OfOneAddress)?;
         } else if table.taken.len() >= ALL_MAX {
             table.part_for_one_more(None).ok_or(NoSeat::Full)?;
         }
@@ -82,6 +84,11 @@ impl Seats {
             seats: self.clone(),
             parting,
         })
+    }
+
+    #[cfg(test)]
+    pub(crate) fn count(&self) -> usize {
+        self.table().taken.len()
     }
 
     fn table(&self) -> MutexGuard<'_, Table> {
@@ -185,7 +192,9 @@ mod tests {
         let taken: Vec<Seat> = (0..OF_ONE_MAX).map(|_| seats.take(address(2)).unwrap()).collect();
         taken[0].mark().is_known();
         let phone = seats.take(address(2)).unwrap();
-        let parting: Vec<usize> = (0..OF_ONE_MAX).filter(|place| must_part(&taken[*place])).collect();
+        let parting: Vec<usize> = (0..OF_ONE_MAX)
+            .filter(|place| must_part(&taken[*place]))
+            .collect();
         assert_eq!(parting, [1]);
         assert!(!must_part(&phone));
         assert_eq!(seats.table().taken.len(), OF_ONE_MAX);
@@ -214,7 +223,11 @@ mod tests {
         taken[0].mark().is_known();
         let one_more = seats.take(address(99)).unwrap();
         let parting: Vec<usize> = (0..ALL_MAX).filter(|place| must_part(&taken[*place])).collect();
-        assert_eq!(parting, [1]);
+        assert_eq!(
+            parting,
+            [OF_ONE_MAX],
+            "of an address that has its share of strangers"
+        );
         for seat in taken.iter().chain([&one_more]) {
             seat.mark().is_known();
         }

@@ -461,3 +461,48 @@ async fn open_socket(
         .max_frame_size(MESSAGE_BYTES_MAX)
         .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, delivery))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::net::{Ipv4Addr, SocketAddr};
+
+    use axum::Router;
+    use tokio::net::TcpStream;
+    use tokio::task::yield_now;
+
+    use super::{accept, listen};
+    use crate::seats::Seats;
+
+    const ANY_PORT: SocketAddr = SocketAddr::new(std::net::IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+
+    #[tokio::test]
+    async fn who_takes_nothing_is_sent_little() {
+        let (listener, address) = listen(ANY_PORT).unwrap();
+        let _stranger = TcpStream::connect(address).await.unwrap();
+        let (stream, _) = listener.accept().await.unwrap();
+        stream.writable().await.unwrap();
+        let mut sent = 0;
+        while let Ok(bytes) = stream.try_write(&[0; 16 << 10]) {
+            sent += bytes;
+        }
+        assert!(
+            (32 << 10..1 << 20).contains(&sent),
+            "{sent} bytes were taken from the server at once"
+        );
+    }
+
+    #[tokio::test]
+    async fn of_a_crowd_one_is_taken_in_while_everybody_has_a_turn() {
+        let (listener, address) = listen(ANY_PORT).unwrap();
+        let crowd = || std::net::TcpStream::connect(address).unwrap();
+        let _crowd: Vec<_> = std::iter::repeat_with(crowd).take(100).collect();
+        let seats = Seats::default();
+        let entrance = tokio::spawn(accept(listener, None, Router::new(), seats.clone()));
+        for turns in 1..=20 {
+            yield_now().await;
+            assert!(seats.count() <= turns, "{} in {turns} turns", seats.count());
+        }
+        assert!(seats.count() > 5);
+        entrance.abort();
+    }
+}

@@ -106,7 +106,9 @@ pub(crate) struct Watch {
 pub(crate) fn follow(mut phone: Phone, clock_began: Instant, watch: &Watch) -> anyhow::Result<Vec<f64>> {
     let mut delays_ms = Vec::new();
     while !watch.is_over.load(Ordering::Relaxed) {
-        let Some(text) = phone.hear(LOOK_EVERY)? else { continue };
+        let Some(text) = phone.hear(LOOK_EVERY)? else {
+            continue;
+        };
         if !watch.counts.load(Ordering::Relaxed) {
             continue;
         }
@@ -151,6 +153,7 @@ pub(crate) fn come_and_stop(
             thread::sleep(next.saturating_sub(began.elapsed()));
         }
         let all = comers.into_iter().map(|comer| comer.join().ok());
-        all.map(|ended| ended.context("a phone's thread panicked")).collect()
+        all.map(|ended| ended.context("a phone's thread panicked"))
+            .collect()
     })
 }

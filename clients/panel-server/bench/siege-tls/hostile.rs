@@ -236,7 +236,10 @@ impl Besieger<'_> {
 
     fn ask_and_not_read(&mut self) -> anyhow::Result<()> {
         let mut stream = self.door.shake_hands(&self.caller, PATIENCE)?;
-        let request = format!("GET /{LARGE_FILE} HTTP/1.1\r\n{}\r\n", self.door.headers(&self.caller));
+        let request = format!(
+            "GET /{LARGE_FILE} HTTP/1.1\r\n{}\r\n",
+            self.door.headers(&self.caller)
+        );
         stream.write_all(request.repeat(2).as_bytes())?;
         stream.flush()?;
         self.siege.wait(HELD_FOR);
@@ -245,7 +248,10 @@ impl Besieger<'_> {
 
     fn download(&self) -> anyhow::Result<()> {
         let mut stream = self.door.shake_hands(&self.caller, PATIENCE)?;
-        let request = format!("GET /{LARGE_FILE} HTTP/1.1\r\n{}\r\n", self.door.headers(&self.caller));
+        let request = format!(
+            "GET /{LARGE_FILE} HTTP/1.1\r\n{}\r\n",
+            self.door.headers(&self.caller)
+        );
         let mut part = vec![0; LARGE_FILE_BYTES];
         while !self.siege.is_over() {
             stream.write_all(request.as_bytes())?;

@@ -12,8 +12,8 @@ use vthal_bench::{
     Client, Daemon, LivingRobot, Processor, Scratch, SyntheticRobot, needed_beside, resident_max_mib,
 };
 
-use crate::hostile::{Besieger, Kind, LARGE_FILE, LARGE_FILE_BYTES, Siege};
 use crate::honest::{self, Phone, Watch};
+use crate::hostile::{Besieger, Kind, LARGE_FILE, LARGE_FILE_BYTES, Siege};
 
 /// A robot has described itself, and its map is taken up, after this time.
 const SETTLE: Duration = Duration::from_secs(3);

@@ -417,7 +417,10 @@ mod tests {
         let paired = guarded.watch();
         for _ in 0..100 {
             let name = DeviceName::new("guess").unwrap();
-            let begin = Begin { name, message: [7; 33] };
+            let begin = Begin {
+                name,
+                message: [7; 33],
+            };
             guarded.begin(begin).await.unwrap_err();
         }
         assert!(!paired.has_changed().unwrap());
