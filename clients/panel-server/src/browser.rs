@@ -8,6 +8,7 @@ use axum::extract::ws::{Message, WebSocket};
 use futures_util::stream::{SplitSink, SplitStream};
 use futures_util::{SinkExt, StreamExt};
 use tokio::sync::Notify;
+use tokio::task::yield_now;
 use tokio::time::{Instant, Interval, interval, timeout};
 use tracing::{debug, info, warn};
 
@@ -190,7 +191,12 @@ impl Browser {
     ) -> Result<(), Parting> {
         let shared = Arc::clone(&self.shared);
         tokio::select! {
-            message = stream.next() => self.on_browser(message).await,
+            message = stream.next() => {
+                self.on_browser(message).await?;
+                // Many messages come in one read: others have their turn after each.
+                yield_now().await;
+                Ok(())
+            }
             event = self.vthal.next() => self.on_vthal(event).await,
             event = next_of(&mut self.simulator) => self.on_simulator(event),
             change = change_of(&mut self.pass) => self.on_change(change),

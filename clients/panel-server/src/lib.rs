@@ -24,6 +24,7 @@ mod guarded;
 mod identity;
 mod matter;
 mod outbox;
+mod pace;
 mod page;
 mod pass;
 mod reset_file;

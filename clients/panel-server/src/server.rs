@@ -21,7 +21,8 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use pairing::need_of;
 use tokio::io::{AsyncRead, AsyncWrite};
-use tokio::net::{TcpListener, TcpStream, UnixListener};
+use tokio::net::{TcpListener, TcpSocket, TcpStream, UnixListener};
+use tokio::task::{JoinSet, yield_now};
 use tokio::time::timeout;
 use tokio_rustls::TlsAcceptor;
 use tracing::{debug, error, warn};
@@ -33,6 +34,7 @@ use crate::buttons::watch_buttons;
 use crate::download::{self, Wanted};
 use crate::gate::Gate;
 use crate::guarded::{Known, listen_console, serve_console};
+use crate::pace::Pace;
 use crate::page;
 use crate::pass::Pass;
 use crate::reset_file;
@@ -49,6 +51,13 @@ const HEAD_BYTES_MAX: usize = 8 << 10;
 const HEAD_TIME_MAX: Duration = Duration::from_secs(10);
 /// A peer that takes nothing of an answer for so long is gone.
 const WRITE_TIME_MAX: Duration = Duration::from_secs(10);
+
+/// Bytes that the system keeps of what one peer has not taken, doubled by Linux for its own book-keeping. Unbounded it is megabytes: so much
+/// is encrypted in one go for each that asks for a large file and takes nothing, while everybody else waits. A tenth of a second at 5 Mbit/s.
+const SEND_BYTES_MAX: u32 = 64 << 10;
+
+/// Connections that wait to be accepted.
+const BACKLOG: u32 = 1024;
 
 /// Bytes of one WebSocket message from a browser.
 const MESSAGE_BYTES_MAX: usize = 64 << 10;
@@ -115,7 +124,7 @@ impl Server {
     pub async fn bind(settings: Settings) -> Result<Self, StartError> {
         settings.check_reach()?;
         let assets = Assets::read(&settings.assets)?;
-        let (listener, address) = listen(settings.address).await?;
+        let (listener, address) = listen(settings.address)?;
         let mut server = Self {
             listener,
             address,
@@ -157,7 +166,7 @@ impl Server {
         self.console = Some(console);
         self.announce = guard.announce;
         if let Some(port) = guard.page_port {
-            self.page = Some(listen(SocketAddr::new(self.address.ip(), port)).await?.0);
+            self.page = Some(listen(SocketAddr::new(self.address.ip(), port))?.0);
         }
         Ok(())
     }
@@ -194,43 +203,62 @@ impl Server {
             .layer(middleware::from_fn_with_state(Arc::clone(&self.site), guard))
             .with_state(Arc::clone(&self.site));
         let seats = Seats::default();
+        // Tasks like those of the connections, which have their turn as often: a part of this one would have it far more often, and those who
+        // come in crowds would be taken in faster than anybody is served. They end with this.
+        let mut entrances = JoinSet::new();
         let Some(gate) = self.site.gate.clone() else {
-            accept(self.listener, None, router, seats).await;
+            entrances.spawn(accept(self.listener, None, router, seats));
+            entrances.join_all().await;
             return;
         };
-        let acceptor = match gate.acceptor() {
-            Ok(acceptor) => acceptor,
+        let handshakes = match gate.acceptor() {
+            Ok(acceptor) => Handshakes {
+                acceptor,
+                pace: Pace::default(),
+            },
             Err(error) => {
                 error!(%error, "no TLS");
                 return;
             }
         };
-        let page = self
-            .page
-            .map(|listener| accept(listener, None, page::router(Arc::clone(&gate)), seats.clone()));
+        if let Some(listener) = self.page {
+            let router = page::router(Arc::clone(&gate));
+            entrances.spawn(accept(listener, None, router, seats.clone()));
+        }
+        entrances.spawn(accept(self.listener, Some(handshakes), router, seats));
         let console = self
             .console
             .map(|console| serve_console(console, Arc::clone(&gate)));
         tokio::join!(
-            accept(self.listener, Some(acceptor), router, seats),
+            entrances.join_all(),
             gate.keep(&self.site.rules),
             gate.software.keep_looking(),
             watch_buttons(&gate),
-            OptionFuture::from(page),
             OptionFuture::from(console),
             OptionFuture::from(self.announce.then(|| announce(&gate, self.address.port()))),
         );
     }
 }
 
-async fn listen(wanted: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {
-    let listener = TcpListener::bind(wanted)
-        .await
-        .map_err(|source| listen_error(wanted, source))?;
+fn listen(wanted: SocketAddr) -> Result<(TcpListener, SocketAddr), StartError> {
+    let listener = bound(wanted).map_err(|source| listen_error(wanted, source))?;
     let address = listener
         .local_addr()
         .map_err(|source| listen_error(wanted, source))?;
     Ok((listener, address))
+}
+
+/// Connections inherit what is set here.
+fn bound(wanted: SocketAddr) -> io::Result<TcpListener> {
+    let socket = match wanted {
+        SocketAddr::V4(_) => TcpSocket::new_v4()?,
+        SocketAddr::V6(_) => TcpSocket::new_v6()?,
+    };
+    // A server that starts anew must not wait for connections of the one before.
+    socket.set_reuseaddr(true)?;
+    socket.set_send_buffer_size(SEND_BYTES_MAX)?;
+    socket.bind(wanted)?;
+    socket.listen(BACKLOG)
 }
 
 /// The rules for a server that only this computer reaches.
@@ -243,8 +271,16 @@ fn plain_rules(address: SocketAddr, host_names: &[String]) -> Rules {
     )
 }
 
+/// What lets connections in by TLS.
+#[derive(Clone)]
+struct Handshakes {
+    acceptor: TlsAcceptor,
+    /// A signature and a key exchange take as long as tens of presses of Stop.
+    pace: Pace,
+}
+
 /// Takes connections for ever, each with its seat.
-async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router, seats: Seats) {
+async fn accept(listener: TcpListener, tls: Option<Handshakes>, router: Router, seats: Seats) {
     loop {
         match listener.accept().await {
             Ok((stream, peer)) => {
@@ -266,6 +302,8 @@ async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router,
                         () = seat.parting() => debug!(%peer, "a stranger leaves for somebody else"),
                     }
                 });
+                // Whoever was taken in is served before the next one is.
+                yield_now().await;
             }
             Err(error) => {
                 warn!(%error, "cannot accept a connection");
@@ -275,13 +313,13 @@ async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router,
     }
 }
 
-async fn welcome(stream: TcpStream, tls: Option<TlsAcceptor>, router: Router) {
+async fn welcome(stream: TcpStream, tls: Option<Handshakes>, router: Router) {
     stream.set_nodelay(true).ok(); // Only costs latency when it fails.
     let stream = WriteDeadline::new(stream, WRITE_TIME_MAX);
     let Some(tls) = tls else {
         return serve(stream, router).await;
     };
-    match timeout(HEAD_TIME_MAX, tls.accept(stream)).await {
+    match timeout(HEAD_TIME_MAX, tls.pace.at(tls.acceptor.accept(stream))).await {
         Ok(Ok(stream)) => serve(stream, router).await,
         Ok(Err(error)) => debug!(%error, "no TLS connection"),
         Err(_) => debug!("a TLS handshake took too long"),
@@ -422,4 +460,49 @@ async fn open_socket(
         .max_message_size(MESSAGE_BYTES_MAX)
         .max_frame_size(MESSAGE_BYTES_MAX)
         .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, delivery))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::{Ipv4Addr, SocketAddr};
+
+    use axum::Router;
+    use tokio::net::TcpStream;
+    use tokio::task::yield_now;
+
+    use super::{accept, listen};
+    use crate::seats::Seats;
+
+    const ANY_PORT: SocketAddr = SocketAddr::new(std::net::IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+
+    #[tokio::test]
+    async fn who_takes_nothing_is_sent_little() {
+        let (listener, address) = listen(ANY_PORT).unwrap();
+        let _stranger = TcpStream::connect(address).await.unwrap();
+        let (stream, _) = listener.accept().await.unwrap();
+        stream.writable().await.unwrap();
+        let mut sent = 0;
+        while let Ok(bytes) = stream.try_write(&[0; 16 << 10]) {
+            sent += bytes;
+        }
+        assert!(
+            (32 << 10..1 << 20).contains(&sent),
+            "{sent} bytes were taken from the server at once"
+        );
+    }
+
+    #[tokio::test]
+    async fn of_a_crowd_one_is_taken_in_while_everybody_has_a_turn() {
+        let (listener, address) = listen(ANY_PORT).unwrap();
+        let crowd = || std::net::TcpStream::connect(address).unwrap();
+        let _crowd: Vec<_> = std::iter::repeat_with(crowd).take(100).collect();
+        let seats = Seats::default();
+        let entrance = tokio::spawn(accept(listener, None, Router::new(), seats.clone()));
+        for turns in 1..=20 {
+            yield_now().await;
+            assert!(seats.count() <= turns, "{} in {turns} turns", seats.count());
+        }
+        assert!(seats.count() > 5);
+        entrance.abort();
+    }
 }

@@ -23,6 +23,9 @@ enum Subject {
     Kill,
     /// Ten hostile clients of each kind, and a line that fails: how soon Stop is answered, how late telemetry comes, what it takes.
     Siege,
+    /// Ten hostile peers of each kind at the TLS port of the panel's server: how soon Stop of a paired phone is answered, how late telemetry
+    /// comes, whether a phone that comes anew gets through, and what it takes.
+    SiegeTls,
     /// Daemon and panel's server killed at random moments while they write what people entrusted to them.
     Writes,
     /// The simulator against real time with each strategy, and where the time goes.
@@ -106,7 +109,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     }
     if matches!(
         arguments.subject,
-        Subject::Relay | Subject::Kill | Subject::Siege | Subject::Writes
+        Subject::Relay | Subject::Kill | Subject::Siege | Subject::SiegeTls | Subject::Writes
     ) {
         workspace::build(
             &["vthal", "rvac-sim", "panel-server"],
@@ -230,6 +233,7 @@ fn program(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Panel => &["--bin", "bench-panel"],
         Subject::Kill => &["--bin", "bench-kill"],
         Subject::Siege => &["--bin", "bench-siege"],
+        Subject::SiegeTls => &["--bin", "bench-siege-tls"],
         Subject::Writes => &["--bin", "bench-writes"],
         Subject::Sim => &["--bin", "bench-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
@@ -261,6 +265,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Relay
         | Subject::Panel
         | Subject::Siege
+        | Subject::SiegeTls
         | Subject::Writes
         | Subject::Cordlib
         | Subject::Relax
@@ -300,7 +305,7 @@ fn longer(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Board => &["--seeds", "1000", "--log-hours", "168"],
         Subject::Sim => &["--minutes", "240"],
-        Subject::Siege => &["--seconds", "60"],
+        Subject::Siege | Subject::SiegeTls => &["--seconds", "60"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Cordlib | Subject::Relax | Subject::LogicMutants | Subject::Scripts => &[],
     }

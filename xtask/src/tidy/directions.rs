@@ -133,7 +133,7 @@ const DIRECTIONS: [Direction; 54] = [
     Direction { of: "calibration",   knows: &["calibration-values", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "rvac-cli",      knows: &["calibration", "calibration-values", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "system-zone", "systemd-notice", "update-bundle"], never: &[] },
-    Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
+    Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-api", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["mixer", "rvac-api"],                         never: &["tokio", "leptos", "web-sys"] },
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },

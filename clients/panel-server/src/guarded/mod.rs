@@ -358,9 +358,11 @@ impl Guarded {
         let before = door.stored();
         let outcome = act(&mut door, now_us);
         let after = door.stored();
-        if after != before
-            && let Err(error) = self.write(after).await
-        {
+        if after == before {
+            // A guess that is refused must not wake the connections of all who are paired.
+            return Ok(outcome?);
+        }
+        if let Err(error) = self.write(after).await {
             let robot = door.robot().clone();
             if let Ok(unchanged) = Door::new(now_us, robot, Some(&before)) {
                 *door = unchanged;
@@ -402,9 +404,27 @@ pub fn unix_s() -> u64 {
 mod tests {
     use std::fs;
 
-    use pairing::{Door, RobotId};
+    use pairing::wire::Begin;
+    use pairing::{DeviceName, Door, RobotId};
 
     use super::{ClientsError, Guarded};
+
+    #[tokio::test]
+    async fn who_guesses_wakes_nobody_who_is_paired() {
+        let folder = crate::folder::Folder::new();
+        let robot = RobotId::of_public_key(b"a key");
+        let guarded = Guarded::at(&folder.join("clients.json"), robot).unwrap();
+        let paired = guarded.watch();
+        for _ in 0..100 {
+            let name = DeviceName::new("guess").unwrap();
+            let begin = Begin {
+                name,
+                message: [7; 33],
+            };
+            guarded.begin(begin).await.unwrap_err();
+        }
+        assert!(!paired.has_changed().unwrap());
+    }
 
     #[test]
     fn a_damaged_list_is_put_aside_for_the_one_before_and_a_newer_versions_stays() {

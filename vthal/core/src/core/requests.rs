@@ -16,6 +16,7 @@ use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::readiness::Readiness;
 use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleRequest;
+use crate::desk::sources::Sources;
 use crate::refusal::{Refusal, Refused};
 use crate::{ClientId, MixOrder, Outputs, RunEnd};
 
@@ -133,10 +134,10 @@ impl Core {
                 let map = self.feed.first_map(self.brain_session.as_ref(), &mut teller);
                 map.into_iter().collect()
             }
+            Topic::Home => self.first_home(now_us).into_iter().collect(),
             Topic::Status
             | Topic::Pose
             | Topic::Device
-            | Topic::Home
             | Topic::Estimate
             | Topic::PlannedPath
             | Topic::Floors
@@ -148,6 +149,17 @@ impl Core {
         for update in updates {
             teller.tell_one(client, update);
         }
+    }
+
+    fn first_home(&mut self, now_us: u64) -> Option<Update> {
+        let sources = Sources {
+            brain_session: self.brain_session.as_ref(),
+            link: &self.link,
+            floors: &self.floors,
+            driver: None,
+            config: &self.config,
+        };
+        self.feed.first_home(&sources, now_us)
     }
 
     fn job(

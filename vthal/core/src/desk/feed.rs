@@ -1,10 +1,11 @@
 //! What clients receive, and how often.
 
 use brain::{MapCursor, SweptShare};
-use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedPath, Pose, Status, Topic, Update};
+use rvac_api::{Estimate, FloorsView, HomeView, MapSnapshot, PlannedPath, Pose, Status, Topic, Update};
 
 use super::audience::Teller;
 use super::clients::Clients;
+use super::kept_view::KeptView;
 use super::sources::Sources;
 use crate::brain_session::BrainSession;
 use crate::swept_sigma::SweptSigma;
@@ -31,6 +32,9 @@ const UNSEEN: f64 = 0.002;
 /// Planned paths are sent at most this often.
 const PLANNED_PATH_US: u64 = 2_000_000;
 
+/// What a view of the home shows: its revision, and whether rooms stand in it.
+type HomeVersion = (u32, bool);
+
 /// When each kind of update last went out.
 #[derive(Debug, Default)]
 pub(crate) struct Feed {
@@ -48,9 +52,10 @@ pub(crate) struct Feed {
     swept_number: u32,
     swept_sigma: SweptSigma,
     home_us: u64,
-    home_revision: u32,
-    /// Rooms stand in the home that was told.
-    home_has_rooms: bool,
+    /// The version of the home that was told.
+    home_version: HomeVersion,
+    /// For whoever follows it next.
+    home: KeptView<HomeVersion, HomeView>,
     estimate_us: u64,
     estimate: Estimate,
     share_us: u64,
@@ -174,12 +179,23 @@ impl Feed {
             return;
         };
         let version = (brain_session.home_revision(), sources.knows_rooms());
-        if version != (self.home_revision, self.home_has_rooms)
-            && let Some(home) = sources.home()
+        if version != self.home_version
+            && let Some(home) = self.home_now(sources, teller.now_us)
         {
-            (self.home_revision, self.home_has_rooms) = version;
+            self.home_version = version;
             teller.tell(Topic::Home, Update::Home(home));
         }
+    }
+
+    /// What a new follower of the home gets at once. It is drawn once for all who come within seconds: a large one takes tens of
+    /// milliseconds, in which nobody else is served.
+    pub(crate) fn first_home(&mut self, sources: &Sources<'_>, now_us: u64) -> Option<Update> {
+        self.home_now(sources, now_us).map(Update::Home)
+    }
+
+    fn home_now(&mut self, sources: &Sources<'_>, now_us: u64) -> Option<HomeView> {
+        let version = (sources.brain_session?.home_revision(), sources.knows_rooms());
+        self.home.at((version, now_us), || sources.home())
     }
 
     fn feed_status(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {

@@ -23,6 +23,7 @@ pub(crate) mod home;
 pub(crate) mod input_desk;
 pub(crate) mod jobs;
 pub(crate) mod journal;
+mod kept_view;
 pub(crate) mod learnt;
 pub(crate) mod link;
 #[cfg_attr(

@@ -120,7 +120,6 @@ impl Sources<'_> {
             Topic::Pose => Some(Update::Pose(self.pose())),
             Topic::Device => Some(Update::Device(self.device_table(now_us))),
             Topic::Floors => Some(Update::Floors(self.floors.view(self.brain_session))),
-            Topic::Home => self.home().map(Update::Home),
             Topic::Estimate => self.brain_session.map(|brain_session| {
                 let brain = brain_session.brain();
                 Update::Estimate(to_api::estimate(brain, brain.swept_share()))
@@ -128,7 +127,8 @@ impl Sources<'_> {
             Topic::PlannedPath => self
                 .brain_session
                 .map(|brain_session| Update::PlannedPath(to_api::planned_path(brain_session.brain()))),
-            Topic::Map
+            Topic::Home
+            | Topic::Map
             | Topic::Log
             | Topic::Decisions
             | Topic::Schedules

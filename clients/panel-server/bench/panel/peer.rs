@@ -4,17 +4,12 @@ use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
+use panel_bench::{PATIENCE, Stream, http};
 use tungstenite::{Message, WebSocket};
 use vthal_bench::Client;
 
-use crate::door::Stream;
-use crate::http;
-
 /// Longest wait for a message in one poll.
 pub(crate) const LOOK: Duration = Duration::from_millis(100);
-
-/// For one answer.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A sender and receiver of texts.
 pub(crate) enum Peer {

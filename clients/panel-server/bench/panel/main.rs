@@ -4,8 +4,6 @@
 //! Beside them the same number of clients are at the daemon's own socket in the same seconds: what the server adds is the
 //! difference.
 
-mod door;
-mod http;
 mod peer;
 mod requests;
 mod stage;

@@ -3,19 +3,11 @@
 use anyhow::bail;
 use std::time::{Duration, Instant};
 
-use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
+use panel_bench::{Door, PATIENCE, keep_large_home};
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{Client, Daemon, Scratch, SyntheticRobot, needed_beside};
 
-use crate::door::Door;
-use crate::peer::{Asker, Peer};
-
-/// Side of the home in cells of 2.5 cm: 400 square metres.
-const SIDE_CELLS: usize = 800;
-/// Cells between two walls.
-const ROOM_CELLS: usize = 160;
-/// Cells of a wall that are left open.
-const DOOR_CELLS: usize = 40;
+use crate::peer::{Asker, LOOK, Peer};
 
 /// All of it; gone when it is dropped.
 pub(crate) struct Stage {
@@ -48,9 +40,7 @@ pub(crate) enum Kind {
 impl Stage {
     pub(crate) fn set() -> anyhow::Result<Self> {
         let scratch = Scratch::new()?;
-        let maps = scratch.join("state/maps");
-        std::fs::create_dir_all(&maps)?;
-        std::fs::write(maps.join("000001.map"), home())?;
+        keep_large_home(&scratch)?;
         let mut robot = SyntheticRobot::switch_on(&scratch.join("tty"), BinaryKinds::NONE, 1)?;
         robot.dock();
         let vthal = needed_beside("vthal")?;
@@ -96,7 +86,11 @@ impl Stage {
     pub(crate) fn peer(&self, kind: Kind) -> anyhow::Result<Peer> {
         Ok(match self.door(kind) {
             None => Peer::Direct(Client::connect(&self.scratch.join("vthal.sock"))?),
-            Some(door) => Peer::Socket(Box::new(door.open_socket()?)),
+            Some(door) => {
+                let (socket, line) = door.open_socket(&door.owner(), PATIENCE)?;
+                line.set_read_timeout(Some(LOOK))?;
+                Peer::Socket(Box::new(socket))
+            }
         })
     }
 
@@ -105,23 +99,9 @@ impl Stage {
         Ok(match self.door(kind) {
             None => Asker::Daemon(self.peer(kind)?),
             Some(door) => Asker::Server {
-                stream: door.connect()?,
-                headers: door.headers(),
+                stream: door.connect(&door.owner())?,
+                headers: door.headers(&door.owner()),
             },
         })
     }
-}
-
-/// Rooms in rows and columns, each with a door to its neighbours, and the dock in one of them.
-fn home() -> Vec<u8> {
-    let corner = Cell { x: -40, y: -40 };
-    let mut floor = Raster::filled(corner, SIDE_CELLS, SIDE_CELLS, CellKnowledge::Free);
-    for (index, cell) in floor.values_mut().iter_mut().enumerate() {
-        let [along, across] = [index % SIDE_CELLS, index / SIDE_CELLS].map(|at| at % ROOM_CELLS);
-        let is_wall = (along == 0 && across >= DOOR_CELLS) || (across == 0 && along >= DOOR_CELLS);
-        if is_wall {
-            *cell = CellKnowledge::Occupied;
-        }
-    }
-    vthal_core::stored_map::encode(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)))
 }

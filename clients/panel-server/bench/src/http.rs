@@ -8,7 +8,10 @@ use anyhow::{Context, bail};
 const LINES_MAX: usize = 32;
 
 /// Sends a GET with further header lines and gives the body.
-pub(crate) fn get(stream: &mut (impl Read + Write), path: &str, headers: &str) -> anyhow::Result<Vec<u8>> {
+///
+/// # Errors
+/// The server hangs up, is silent for too long, or answers anything but 200.
+pub fn get(stream: &mut (impl Read + Write), path: &str, headers: &str) -> anyhow::Result<Vec<u8>> {
     stream.write_all(format!("GET {path} HTTP/1.1\r\n{headers}\r\n").as_bytes())?;
     stream.flush()?;
     let mut received = Vec::new();
