@@ -20,7 +20,7 @@ pub(super) struct CentrelineDrive {
 }
 
 impl CentrelineDrive {
-    /// In this direction, measured from the beams.
+    /// In this direction, measured from the beams: from the robot to the dock. Beside the middle that crosses the centreline.
     pub(super) fn along(base_rad: f64) -> Self {
         Self {
             base_rad,
@@ -74,6 +74,9 @@ impl CentrelineDrive {
         match lobe {
             Lobe::None => {}
             Lobe::Left | Lobe::Right => {
+                if self.lobe == Lobe::Both && !self.is_known {
+                    self.base_rad -= CENTRELINE.base_step_rad * toward_centreline(lobe);
+                }
                 self.lobe = lobe;
                 self.middle_m = if self.near_m > 0.0 {
                     CENTRELINE.to_middle_near_m
@@ -84,9 +87,6 @@ impl CentrelineDrive {
             Lobe::Both if self.lobe != Lobe::Both => {
                 self.middle_m -= self.trim_rad() * distance_m.max(0.0);
                 if self.middle_m <= 0.0 {
-                    if !self.is_known {
-                        self.base_rad += CENTRELINE.base_step_rad * toward_centreline(self.lobe);
-                    }
                     self.lobe = Lobe::Both;
                 }
             }

@@ -39,9 +39,13 @@ pub(crate) struct Docking {
     back_to_beams: u32,
     approaches: u32,
     failed_tries: FailedTries,
+    /// Tries without contact of a robot that did not know where it was.
+    unplaced_tries: u32,
     elapsed_s: f64,
     /// Time since it stood before the dock first; `None` before that.
     at_dock_s: Option<f64>,
+    /// Time since the way to the dock was blocked first; `None` before that.
+    blocked_s: Option<f64>,
     /// Beams are ignored for this long.
     ignore_s: f64,
     /// The map is ignored for this long.
@@ -70,6 +74,7 @@ impl Task for Docking {
         let time_s = situation.advance.time_s;
         self.elapsed_s += time_s;
         self.at_dock_s = self.at_dock_s.map(|at_dock_s| at_dock_s + time_s);
+        self.blocked_s = self.blocked_s.map(|blocked_s| blocked_s + time_s);
         self.ignore_s = (self.ignore_s - time_s).max(0.0);
         self.search_s = (self.search_s - time_s).max(0.0);
         self.search.note(situation);
@@ -98,7 +103,11 @@ impl Task for Docking {
             }
             DockingPhase::Approach(approach) => {
                 let step = approach.step(situation, context);
-                if let Some(failed) = approach.take_failed_try() {
+                let failed = approach.take_failed_try();
+                if failed == Some(FailedTry::NoContact) && self.is_other_dock(situation) {
+                    return self.leave_other_dock(situation, context);
+                }
+                if let Some(failed) = failed {
                     self.count_failed(failed, situation);
                 }
                 self.after_approach(step, situation, context)
@@ -126,8 +135,12 @@ impl Docking {
         match &self.phase {
             DockingPhase::Approach(_) => {}
             DockingPhase::Wait if self.search_s > 0.0 && situation.is_free() => {}
-            DockingPhase::Travel(_) => {
+            DockingPhase::Travel(travel) => {
                 if let Err(reason) = known {
+                    // What is shut since the map was made lets the robot doubt its place as well.
+                    if travel.is_obstructed() {
+                        self.count_blocked();
+                    }
                     self.begin_search(reason, context);
                 }
             }
@@ -209,7 +222,7 @@ impl Docking {
                 self.phase = DockingPhase::Approach(Approach::from_map(bearing_rad));
             }
             TravelStep::Blocked => {
-                self.failed_tries.count_blocked();
+                self.count_blocked();
                 self.search_s = DOCKING.search_s;
                 // People leave by themselves. A map of a first run that shuts the robot in is not mended by waiting.
                 if situation.map.knows_home() && situation.is_free() && !self.failed_tries.is_blocked_evenly()
@@ -239,9 +252,41 @@ impl Docking {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// What stands in the way of a robot that searches for a dock of unknown place need not stand before the dock.
+    /// Whether the dock that was touched in vain is left as one of another robot: it stands elsewhere than the dock of the map, or the robot
+    /// does not know where it is and has touched it a few times.
+    fn is_other_dock(&mut self, situation: &Situation<'_>) -> bool {
+        match known_dock(situation) {
+            Ok(dock) => dock.position().distance_m(situation.pose.position()) > DOCKING.other_dock_m,
+            Err(Reason::PlaceUnknown) => {
+                self.unplaced_tries += 1;
+                self.unplaced_tries == DOCKING.unplaced_tries_max
+            }
+            Err(_) => false,
+        }
+    }
+
+    /// Goes to the dock of the map, or on along the walls until the robot knows where it is.
+    fn leave_other_dock(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        let status = self.after_approach(ApproachStep::Spent, situation, context);
+        self.ignore_s = DOCKING.ignore_other_dock_s;
+        self.search_s = 0.0;
+        status
+    }
+
+    fn count_blocked(&mut self) {
+        let since_first_s = *self.blocked_s.get_or_insert_default();
+        self.failed_tries.count_blocked(since_first_s);
+    }
+
+    /// What stands in the way of a robot that searches for a dock of unknown place need not stand before the dock, and the dock that it
+    /// touches first without knowing where it is need not be its own.
     fn count_failed(&mut self, failed: FailedTry, situation: &Situation<'_>) {
-        if failed == FailedTry::NoContact || known_dock(situation).is_ok() {
+        let counts = match known_dock(situation) {
+            Ok(_) => true,
+            Err(Reason::PlaceUnknown) if self.unplaced_tries <= DOCKING.unplaced_tries_max => false,
+            Err(_) => failed == FailedTry::NoContact,
+        };
+        if counts {
             self.failed_tries.count(failed);
             self.failed_tries
                 .between_tries(self.at_dock_s.unwrap_or_default());
@@ -274,7 +319,7 @@ impl Docking {
         });
         let known = known_dock(situation);
         if reason == Reason::NoBeam && known.is_ok() {
-            self.failed_tries.count_silent();
+            self.failed_tries.count_silent(self.blocked_s);
         }
         self.ignore_s = DOCKING.ignore_beams_s;
         self.search_s = match (reason, known) {

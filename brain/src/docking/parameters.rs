@@ -9,6 +9,12 @@ pub(super) struct DockingParameters {
     pub(super) ignore_beams_s: f64,
     /// Time of searching at random after a known path was blocked or led to a place without beams, seconds.
     pub(super) search_s: f64,
+    /// Farther than this from the dock of the map a dock that is touched is another one, metres. Who moves a dock by less need not show it.
+    pub(super) other_dock_m: f64,
+    /// Tries without contact of a robot that does not know where it is, after which it leaves that dock. Only later ones count.
+    pub(super) unplaced_tries_max: u32,
+    /// Time for which beams are ignored after that, seconds: a robot that follows walls finds out where it is.
+    pub(super) ignore_other_dock_s: f64,
     /// Within this distance of a place where nothing was received no beam is expected, metres.
     pub(super) silent_radius_m: f64,
     /// The same where beams were received and the approach failed, metres: a place nearby may do.
@@ -23,6 +29,9 @@ pub(super) struct DockingParameters {
 
 pub(super) const DOCKING: DockingParameters = DockingParameters {
     ignore_beams_s: 15.0,
+    other_dock_m: 1.5,
+    unplaced_tries_max: 2,
+    ignore_other_dock_s: 90.0,
     search_s: 40.0,
     silent_radius_m: 0.5,
     missed_radius_m: 0.25,
@@ -41,6 +50,8 @@ pub(super) struct TriesParameters {
     pub(super) at_dock_max_s: f64,
     /// Searches for a path to the dock of the map that found none.
     pub(super) blocked_max: u32,
+    /// Time since the first of them, seconds, after which another one ends it.
+    pub(super) blocked_max_s: f64,
     /// The near field begins 0.36 m before the contacts. What is touched less than this far into it, metres, is not the dock.
     pub(super) dock_depth_m: f64,
 }
@@ -50,6 +61,7 @@ pub(super) const TRIES: TriesParameters = TriesParameters {
     silent_max: 4,
     at_dock_max_s: 240.0,
     blocked_max: 4,
+    blocked_max_s: 180.0,
     dock_depth_m: 0.2,
 };
 
@@ -136,7 +148,8 @@ pub(super) struct CentrelineParameters {
     pub(super) trim_rad: f64,
     /// The same in the near field, radians: smaller, because no distance is left to straighten.
     pub(super) trim_near_rad: f64,
-    /// Correction of a base from beams alone when the robot lost the centreline and found it again, radians.
+    /// Correction of a base from beams alone when the robot loses the centreline, radians. It was measured from the edge of the
+    /// centreline then, from where the dock lies up to 0.07 rad farther to the middle than the centreline leads.
     pub(super) base_step_rad: f64,
     /// Sideways distance that the robot continues after it has found the centreline again, to reach its middle, metres.
     pub(super) to_middle_m: f64,
@@ -158,7 +171,7 @@ pub(super) const CENTRELINE: CentrelineParameters = CentrelineParameters {
     near_m_per_s: 0.05,
     trim_rad: 0.22,
     trim_near_rad: 0.14,
-    base_step_rad: 0.02,
+    base_step_rad: 0.04,
     to_middle_m: 0.05,
     to_middle_near_m: 0.02,
     straight_from_m: 0.26,

@@ -2,6 +2,10 @@
 //!
 //! The two front receivers face to the left and to the right of straight ahead. As the robot turns, both begin to receive
 //! the dock at one angle and cease at another. The dock is in the middle of the two.
+//!
+//! A beam counts as lost only after a while, in which the robot turns on: one turn finds both edges too far in its direction, and so the
+//! dock by 5 degrees beside its place. So each edge is the place where the beams cease, the left one in a turn to the left and the right
+//! one in a turn to the right: both lie too far outside by the same angle, whatever the delay is.
 
 use super::parameters::SCAN;
 use crate::mapping::DockBeamFilter;
@@ -15,8 +19,8 @@ pub(super) struct Scan {
     /// Angle turned since the start, left positive, and the sum of absolute turns.
     turned_rad: f64,
     total_turn_rad: f64,
-    /// Angle at which both receivers began to receive; `None` before.
-    from_rad: Option<f64>,
+    /// Angle at which both receivers ceased to receive in the turn to the other side; `None` before.
+    edge_rad: Option<f64>,
     was_ahead: bool,
     is_begun: bool,
 }
@@ -38,7 +42,7 @@ impl Scan {
             side: 1.0,
             turned_rad: 0.0,
             total_turn_rad: 0.0,
-            from_rad: None,
+            edge_rad: None,
             was_ahead: false,
             is_begun: false,
         }
@@ -53,24 +57,10 @@ impl Scan {
             self.turned_rad += turn_rad;
             self.total_turn_rad += turn_rad.abs();
         }
-        if self.was_ahead && !ahead {
-            self.was_ahead = false;
-            match self.from_rad {
-                None => {
-                    // The scan began in the middle: this was one edge, the other one is on the other side.
-                    self.side = -self.side;
-                }
-                Some(from_rad) => {
-                    let width_rad = (self.turned_rad - from_rad).abs();
-                    if SCAN.width_rad.contains(&width_rad) {
-                        return ScanStep::Found(0.5 * (self.turned_rad + from_rad) - self.turned_rad);
-                    }
-                    self.from_rad = None;
-                }
-            }
-        } else if ahead && !self.was_ahead {
-            self.was_ahead = true;
-            self.from_rad = Some(self.turned_rad);
+        let ceases = self.was_ahead && !ahead;
+        self.was_ahead = ahead;
+        if ceases && let Some(bearing_rad) = self.meet_edge() {
+            return ScanStep::Found(bearing_rad);
         }
         if self.total_turn_rad > SCAN.turn_max_rad {
             return ScanStep::Failed;
@@ -79,6 +69,23 @@ impl Scan {
             speed_m_per_s: 0.0,
             turn_rad_per_s: self.side * SCAN.turn_rad_per_s,
         })
+    }
+
+    /// Both receivers have ceased to receive. Gives the direction of the dock once both edges are known, left of straight ahead, radians.
+    fn meet_edge(&mut self) -> Option<f64> {
+        let width_rad = self.edge_rad.map(|edge_rad| (self.turned_rad - edge_rad).abs());
+        match (self.edge_rad, width_rad) {
+            (Some(edge_rad), Some(width_rad)) if SCAN.width_rad.contains(&width_rad) => {
+                return Some(0.5 * (edge_rad - self.turned_rad));
+            }
+            // The beams were lost for a moment.
+            (_, Some(width_rad)) if width_rad <= SCAN.width_rad.start => {}
+            _ => {
+                self.edge_rad = Some(self.turned_rad);
+                self.side = -self.side;
+            }
+        }
+        None
     }
 
     fn begin(&mut self, hearing: &DockBeamFilter, ahead: bool) {
@@ -125,12 +132,12 @@ mod tests {
     }
 
     #[test]
-    fn the_dock_is_found_in_any_direction() {
+    fn the_dock_is_found_in_any_direction_to_within_a_degree() {
         for step in 0..24 {
             let dock_rad = f64::from(step) * 0.26 - 3.1;
             let found_rad = scanned(dock_rad, 3).unwrap();
             let off_rad = (found_rad - dock_rad).sin().atan2((found_rad - dock_rad).cos());
-            assert!(off_rad.abs() < 0.08, "{found_rad} instead of {dock_rad}");
+            assert!(off_rad.abs() < 0.02, "{found_rad} instead of {dock_rad}");
         }
     }
 

@@ -23,6 +23,7 @@ pub(super) struct FailedTries {
     silent: u32,
     blocked: u32,
     is_late: bool,
+    is_shut_off: bool,
 }
 
 impl FailedTries {
@@ -34,14 +35,18 @@ impl FailedTries {
         }
     }
 
-    /// No beam was received at the dock of the map.
-    pub(super) fn count_silent(&mut self) {
+    /// No beam was received at the dock of the map, so long after the way there was blocked first. A robot whose way was blocked again and
+    /// again and that hears nothing at last took the room on this side of a shut door for the one beyond.
+    pub(super) fn count_silent(&mut self, since_blocked_s: Option<f64>) {
         self.silent += 1;
+        let was_blocked_for_long = since_blocked_s.is_some_and(|since_s| since_s >= TRIES.blocked_max_s);
+        self.is_shut_off |= was_blocked_for_long && self.blocked > 1;
     }
 
-    /// No path to the dock of the map was left.
-    pub(super) fn count_blocked(&mut self) {
+    /// No path to the dock of the map was left, so long after that happened first.
+    pub(super) fn count_blocked(&mut self, since_first_s: f64) {
         self.blocked += 1;
+        self.is_shut_off |= since_first_s >= TRIES.blocked_max_s;
     }
 
     /// Whether that has happened.
@@ -69,10 +74,10 @@ impl FailedTries {
                 _ if self.obstructed > self.no_contact => Reason::DockObstructed,
                 _ => Reason::DockNoContact,
             })
+        } else if self.blocked >= TRIES.blocked_max || self.is_shut_off {
+            Some(Reason::WayBlocked)
         } else if self.silent >= TRIES.silent_max && drives_in == 0 {
             Some(Reason::NoBeam)
-        } else if self.blocked >= TRIES.blocked_max {
-            Some(Reason::WayBlocked)
         } else {
             None
         }
@@ -89,7 +94,7 @@ mod tests {
         for (what, times) in failed {
             (0..*times).for_each(|_| tries.count(*what));
         }
-        (0..silent).for_each(|_| tries.count_silent());
+        (0..silent).for_each(|_| tries.count_silent(None));
         tries
     }
 
@@ -135,9 +140,37 @@ mod tests {
     #[test]
     fn a_dock_that_no_path_leads_to_ends_it_as_well() {
         let mut tries = FailedTries::default();
-        (0..3).for_each(|_| tries.count_blocked());
+        (0..3).for_each(|_| tries.count_blocked(0.0));
         assert_eq!(tries.verdict(), None);
-        tries.count_blocked();
+        tries.count_blocked(0.0);
         assert_eq!(tries.verdict(), Some(Reason::WayBlocked));
+    }
+
+    #[test]
+    fn a_dock_that_is_shut_off_for_minutes_ends_it_at_the_next_attempt() {
+        let mut tries = FailedTries::default();
+        tries.count_blocked(0.0);
+        tries.count_blocked(TRIES.blocked_max_s - 1.0);
+        assert_eq!(tries.verdict(), None);
+        tries.count_blocked(TRIES.blocked_max_s);
+        assert_eq!(tries.verdict(), Some(Reason::WayBlocked));
+    }
+
+    #[test]
+    fn silence_after_a_way_that_was_blocked_again_and_again_is_no_silent_dock() {
+        let heard_nothing_after = |blocked: u32, since_s| {
+            let mut tries = FailedTries::default();
+            (0..blocked).for_each(|_| tries.count_blocked(0.0));
+            tries.count_silent(Some(since_s));
+            tries.verdict()
+        };
+        let long_s = TRIES.blocked_max_s;
+        assert_eq!(heard_nothing_after(2, long_s), Some(Reason::WayBlocked));
+        assert_eq!(heard_nothing_after(2, long_s - 1.0), None);
+        assert_eq!(
+            heard_nothing_after(1, long_s),
+            None,
+            "somebody stood in the way once"
+        );
     }
 }

@@ -37,6 +37,7 @@ pub(crate) struct Travel {
     forgotten: u32,
     past: PastFloor,
     planned_from: Option<Point2>,
+    is_obstructed: bool,
 }
 
 /// What floor counts as where something was met since.
@@ -101,7 +102,13 @@ impl Travel {
             forgotten: 0,
             past: PastFloor::Superseded,
             planned_from: None,
+            is_obstructed: false,
         }
+    }
+
+    /// Whether it has met anything.
+    pub(super) fn is_obstructed(&self) -> bool {
+        self.is_obstructed
     }
 
     /// Whether an evasion is in progress.
@@ -151,6 +158,7 @@ impl Travel {
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         context.decide(DecisionKind::BackOff, reason, 0.0);
         self.obstructions.add(reason, situation);
+        self.is_obstructed = true;
         self.follower = None;
         self.path_search = None;
         self.evasion = Some(if situation.at_cliff {

@@ -5,6 +5,7 @@ mod board_faults;
 mod carpets;
 mod carried_young;
 mod determinism;
+mod dock_retries;
 mod drawn_requests;
 mod edges;
 mod floors;
