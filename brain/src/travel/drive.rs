@@ -107,7 +107,7 @@ impl Travel {
     }
 
     /// Whether it has met anything.
-    pub(super) fn is_obstructed(&self) -> bool {
+    pub(crate) fn is_obstructed(&self) -> bool {
         self.is_obstructed
     }
 
