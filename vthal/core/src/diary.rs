@@ -44,7 +44,7 @@ impl Diary {
 pub(crate) fn sentence(decision: &Decision) -> String {
     format!(
         "{}: {}.",
-        deed(decision.kind, decision.value),
+        deed(decision.kind, shown(decision.value)),
         because(decision.cause.name())
     )
 }
@@ -66,8 +66,8 @@ const fn percent(share: f64) -> f64 {
 const BY_STATISTICS: &str = "Cleaning started without a map; statistics estimate how much is clean";
 const BY_MAP: &str = "Cleaned what its map shows; how much of the home that is cannot be said";
 
+/// What was done, with a value that can be shown.
 fn deed(kind: DecisionKind, value: f64) -> String {
-    let value = shown(value);
     match kind {
         DecisionKind::BackOff => "Backed off and turned away".to_owned(),
         DecisionKind::Plan => format!("Route planned, {:.0} min", (value / 60.0).max(1.0)),
@@ -105,8 +105,7 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::WaitForCurrent => "Waited for current from the dock".to_owned(),
         DecisionKind::DockTravel => "Set out for the dock".to_owned(),
         DecisionKind::ForgetObstructions => "Forgot the obstacles of this job".to_owned(),
-        DecisionKind::PlaceWay => format!("Route planned, {value:.0} m"),
-        DecisionKind::DockWay => format!("Route to the dock planned, {value:.0} m"),
+        DecisionKind::PlaceWay | DecisionKind::DockWay => format!("Route planned, {value:.0} m"),
         DecisionKind::DockSearch => "Began to search for the dock".to_owned(),
         DecisionKind::DockSearchTurn => "Turned to where it had not searched yet".to_owned(),
         DecisionKind::DockScan => "Looked round for the beams of the dock".to_owned(),
