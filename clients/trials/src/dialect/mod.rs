@@ -38,6 +38,7 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     map::drawn(&rig, arguments, verdict);
     verdict.check("rooms are cleaned, and each state is pushed", rooms(&rig));
     verdict.check("a zone is cleaned where it lies", zone(&rig));
+    verdict.check("it drives to a place and stands there", place(&rig));
     verdict.check("rooms get names, and walls come and go", changes(&rig));
     verdict.check("what cannot be is refused in words", refusals(&rig));
     verdict.check("a silent client stops the robot", hand::drive(&rig));
@@ -73,7 +74,7 @@ fn identity(rig: &DialectRig) -> anyhow::Result<()> {
     let names = names.as_array().context("no list")?;
     let has = |name: &str| names.iter().any(|own| own == name);
     ensure!(
-        has("MapSegmentationCapability") && has("LocateCapability") && !has("GoToLocationCapability"),
+        has("MapSegmentationCapability") && has("LocateCapability") && !has("MapResetCapability"),
         "{names:?}"
     );
     let version = rig.read("valetudo/version")?;
@@ -193,6 +194,17 @@ fn zone(rig: &DialectRig) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// It drives to the place and stands there.
+fn place(rig: &DialectRig) -> anyhow::Result<()> {
+    let view = rig.home_view()?;
+    let [x, y] = Frame::of(&view)?.place(&view["dock"])?;
+    let coordinates = json!({"x": (x - 250.0).round(), "y": y.round()});
+    let body = json!({"action": "goto", "coordinates": coordinates});
+    rig.order("GoToLocationCapability", &body)?;
+    rig.wait_for_state(&["moving"])?;
+    rig.wait_for_state(&["idle"])
+}
+
 fn changes(rig: &DialectRig) -> anyhow::Result<()> {
     let name = json!({"action": "rename_segment", "segment_id": 1, "name": "Kitchen"});
     rig.order("MapSegmentRenameCapability", &name)?;
@@ -242,9 +254,10 @@ fn refusals(rig: &DialectRig) -> anyhow::Result<()> {
         (
             "GoToLocationCapability",
             json!({"action": "goto"}),
-            404,
-            "no such",
+            400,
+            "coordinates",
         ),
+        ("MapResetCapability", json!({"action": "reset"}), 404, "no such"),
         ("NothingCapability", json!({}), 404, "no such"),
         ("MapSegmentationCapability/properties", json!({}), 405, "GET"),
         (
