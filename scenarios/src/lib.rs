@@ -9,6 +9,7 @@ mod watched;
 
 use std::path::PathBuf;
 
+use brain::Brain;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, start_cleaning};
@@ -125,6 +126,15 @@ pub fn cleaning(scene: &Scene, seed: u64) -> Household {
         "the host finds the robot"
     );
     household
+}
+
+/// The brain of the host.
+///
+/// # Panics
+/// When no host lives, or it has found no robot yet.
+#[must_use]
+pub fn brain(household: &Household) -> &Brain {
+    household.host().and_then(Host::brain).expect("a brain")
 }
 
 /// Whether a line of the log contains this; the log is kept from [`Host::keep_log`] on.

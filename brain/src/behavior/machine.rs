@@ -330,11 +330,7 @@ impl Behavior {
     pub(super) fn runs_cleaners(&self) -> bool {
         match self.mode {
             Mode::Working => self.job.as_ref().is_some_and(|job| {
-                matches!(job.kind, JobKind::Clean(_) | JobKind::Spot)
-                    && job.brushes
-                    && !job.returns
-                    && !job.crosses
-                    && !job.is_departing()
+                job.kind.cleans() && job.brushes && !job.returns && !job.crosses && !job.is_departing()
             }),
             Mode::Manual(drive) => drive.cleaners,
             _ => false,

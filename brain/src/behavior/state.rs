@@ -135,3 +135,10 @@ pub enum JobKind {
     /// Find the dock.
     Dock,
 }
+
+impl JobKind {
+    /// Whether floor is swept, and not only crossed.
+    pub(crate) const fn cleans(self) -> bool {
+        matches!(self, Self::Clean(_) | Self::Spot)
+    }
+}

@@ -1,19 +1,11 @@
 //! A robot that people carry elsewhere during its first run, whose map is young.
 
-use brain::Brain;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_api::{NoGoShape, RequestBody};
+use rvac_sim::Household;
 use rvac_sim::run::start_cleaning;
-use rvac_sim::{Host, Household};
-use scenarios::{generated, household, settings};
-
-fn brain(household: &Household) -> &Brain {
-    household
-        .host()
-        .and_then(Host::brain)
-        .expect("the host has a brain")
-}
+use scenarios::{brain, generated, household, settings};
 
 /// A first run in a generated home after so many seconds.
 fn first_run(home: u32, for_s: u64) -> Household {

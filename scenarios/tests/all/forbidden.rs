@@ -1,10 +1,10 @@
 //! Floor that a person forbids while the robot cleans: the path that the robot follows must not lead through it any more.
 
+use brain::Point2;
 use brain::command::StrategyName;
-use brain::{Brain, Point2};
 use rvac_api::{NoGoShape, RequestBody};
-use rvac_sim::{Host, Household};
-use scenarios::{household, scene, settings};
+use rvac_sim::Household;
+use scenarios::{brain, household, scene, settings};
 
 /// Half the side of the forbidden square, metres.
 const HALF_M: f64 = 0.25;
@@ -12,10 +12,6 @@ const HALF_M: f64 = 0.25;
 const AHEAD_M: f64 = 0.8;
 /// The pose is known to some centimetres, and the robot follows its path to some more, metres.
 const SLACK_M: f64 = 0.1;
-
-fn brain(household: &Household) -> &Brain {
-    household.host().and_then(Host::brain).expect("a brain")
-}
 
 /// A corner of the planned path that is far enough ahead.
 fn ahead(household: &Household) -> Option<Point2> {

@@ -2,15 +2,11 @@
 
 use brain::{BehaviorState, Brain, CellKnowledge, Point2, Reason};
 use rvac_api::{NoGoShape, RequestBody};
-use rvac_sim::{Host, Household};
-use scenarios::{generated, household, says, scene, settings};
+use rvac_sim::Household;
+use scenarios::{brain, generated, household, says, scene, settings};
 
 /// Nearer than this it is there, metres: its place is known to some centimetres, and it stops within some more.
 const THERE_M: f64 = 0.2;
-
-fn brain(household: &Household) -> &Brain {
-    household.host().and_then(Host::brain).expect("a brain")
-}
 
 fn go_to(household: &mut Household, place: Point2) {
     household.ask(RequestBody::GoTo {

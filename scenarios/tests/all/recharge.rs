@@ -3,16 +3,12 @@
 
 use brain::command::StrategyName;
 use brain::{BehaviorState, Brain};
+use rvac_sim::Household;
 use rvac_sim::run::start_cleaning;
-use rvac_sim::{Host, Household};
-use scenarios::{generated, household, settings};
+use scenarios::{brain, generated, household, settings};
 
 /// Longest charge, seconds.
 const CHARGE_S: u64 = 4 * 60 * 60;
-
-fn brain(household: &Household) -> &Brain {
-    household.host().and_then(Host::brain).expect("a brain")
-}
 
 /// Lets time pass until something is so, at most this many seconds; gives the seconds that it took.
 fn until(is_so: impl Fn(&Brain) -> bool, at_most_s: u64, household: &mut Household) -> u64 {

@@ -1,19 +1,15 @@
 //! Docks as they are in homes: the mains fail, contacts are dirty or dead, somebody takes the robot away.
 
+use brain::BehaviorState;
 use brain::command::StrategyName;
-use brain::{BehaviorState, Brain};
 use home::{DockContacts, Pose};
 use rvac_api::{JobOrder, JobPart, LogEntry, LogLevel, RequestBody, RunJob, RunResult};
 use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{household, off_the_dock, scene, settings};
+use scenarios::{brain, household, off_the_dock, scene, settings};
 
 /// Longest way home that ends without the dock, seconds.
 const GIVES_UP_S: u64 = 6 * 60;
-
-fn brain(household: &Household) -> &Brain {
-    household.host().and_then(Host::brain).expect("a brain")
-}
 
 fn told(household: &Household) -> (BehaviorState, &'static str) {
     let status = brain(household).status();

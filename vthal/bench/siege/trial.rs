@@ -9,7 +9,8 @@ use anyhow::Context;
 use rvac_api::{LogLevel, Update};
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{
-    Client, Daemon, HostileKind, Processor, Scratch, Siege, SyntheticRobot, keep_home, resident_max_mib,
+    Client, Daemon, Delays, HostileKind, Processor, Scratch, Siege, SyntheticRobot, keep_home,
+    resident_max_mib,
 };
 
 use crate::card::{self, CardState, Passage};
@@ -62,26 +63,6 @@ pub(crate) struct Trial {
     pub(crate) of_a_kind: u64,
     /// For so long.
     pub(crate) time: Duration,
-}
-
-/// Delays, milliseconds.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Delays {
-    pub(crate) median: f64,
-    pub(crate) p99: f64,
-    pub(crate) most: f64,
-}
-
-impl Delays {
-    fn of(mut delays_ms: Vec<f64>) -> Option<Self> {
-        delays_ms.sort_by(f64::total_cmp);
-        let rank = |share: f64| delays_ms.get((delays_ms.len() as f64 * share) as usize).copied();
-        Some(Self {
-            median: rank(0.5)?,
-            p99: rank(0.99)?,
-            most: *delays_ms.last()?,
-        })
-    }
 }
 
 /// What was measured.

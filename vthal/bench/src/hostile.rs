@@ -16,6 +16,8 @@ const ESTIMATE_EVERY: Duration = Duration::from_millis(33);
 const LOOK_EVERY: Duration = Duration::from_millis(1);
 /// So many parts has the job that they ask about.
 const PARTS: usize = 16;
+/// Tenths of a metre of the hall of [`crate::keep_home`] in which zones to be estimated begin.
+const HALL: [usize; 2] = [30, 20];
 /// So many estimates are asked for in one write.
 const PIPELINED: usize = 150;
 const ALL_TOPICS: &str = r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","packets","schedules","runs","floors","standstills","buttons","inputs"]}"#;
@@ -182,8 +184,8 @@ impl HostileKind {
     /// What it asks next, in one write.
     fn requests(self, state: &mut u64) -> Vec<String> {
         let all: &[&str] = match self {
-            Self::Estimates => return vec![estimate(state)],
-            Self::PipelinesEstimates => return (0..PIPELINED).map(|_| estimate(state)).collect(),
+            Self::Estimates => return vec![estimate(state, HALL)],
+            Self::PipelinesEstimates => return (0..PIPELINED).map(|_| estimate(state, HALL)).collect(),
             Self::Stops => &[r#"{"c":"stop","id":1}"#],
             Self::StopsAndStarts => &[r#"{"c":"stop","id":1}"#, r#"{"c":"start","id":2}"#],
             Self::Forgets => &[
@@ -206,12 +208,12 @@ impl HostileKind {
     }
 }
 
-/// An estimate of zones all over the hall of [`crate::keep_home`].
-fn estimate(state: &mut u64) -> String {
+/// An estimate of zones whose lower left corners lie within so many tenths of a metre of the map's origin.
+pub fn estimate(state: &mut u64, [wide, high]: [usize; 2]) -> String {
     let parts: Vec<String> = (0..PARTS)
         .map(|_| {
-            let x_m = nonsense::index(state, 30) as f64 / 10.0;
-            let y_m = nonsense::index(state, 20) as f64 / 10.0;
+            let x_m = nonsense::index(state, wide) as f64 / 10.0;
+            let y_m = nonsense::index(state, high) as f64 / 10.0;
             let (right_m, top_m) = (x_m + 2.5, y_m + 1.5);
             format!(r#"{{"zone":[[{x_m},{y_m}],[{right_m},{y_m}],[{right_m},{top_m}],[{x_m},{top_m}]]}}"#)
         })

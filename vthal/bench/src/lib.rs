@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod client;
+mod delays;
 mod hostile;
 mod kept_home;
 mod living;
@@ -13,7 +14,8 @@ mod robot;
 mod usage;
 
 pub use client::Client;
-pub use hostile::{HostileKind, Siege, SiegeEnd};
+pub use delays::Delays;
+pub use hostile::{HostileKind, Siege, SiegeEnd, estimate};
 pub use kept_home::keep_home;
 pub use living::LivingRobot;
 pub use process::{Daemon, Scratch, built_beside, needed_beside};

@@ -25,25 +25,18 @@ impl Behavior {
                 self.admit_job(JobKind::Clean(*strategy), &CleaningOrder::default())
             }
             JobCommand::CleanParts { order } => {
-                map.admit_order(order)?;
-                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)?;
-                // A robot that does not know its place does not know what it can reach from there.
-                if !estimate.is_sure() {
-                    return Ok(());
-                }
-                let from = estimate.pose.position();
-                coverage::admit_reach(order, map, from, self.config.body.radius_m)
+                let kind = JobKind::Clean(StrategyName::Systematic);
+                self.admit_parts((kind, order), (map, estimate))
             }
             JobCommand::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),
             JobCommand::GoTo { place } => {
                 let order = CleaningOrder::of_place(*place);
-                map.admit_order(&order)?;
-                self.admit_job(JobKind::GoTo, &order)?;
-                if !estimate.is_sure() {
-                    return Err(JobRefusal::PlaceUnknown);
+                self.admit_parts((JobKind::GoTo, &order), (map, estimate))?;
+                if estimate.is_sure() {
+                    Ok(())
+                } else {
+                    Err(JobRefusal::PlaceUnknown)
                 }
-                let from = estimate.pose.position();
-                coverage::admit_reach(&order, map, from, self.config.body.radius_m)
             }
             JobCommand::Dock => self.admit_dock(),
             JobCommand::Pause => self.admit_pause(),
@@ -112,6 +105,22 @@ impl Behavior {
         } else {
             Ok(())
         }
+    }
+
+    /// A job for parts of a home that the map must have, and that the robot can reach from its place.
+    fn admit_parts(
+        &self,
+        (kind, order): (JobKind, &CleaningOrder),
+        (map, estimate): (&Map, PoseEstimate),
+    ) -> Result<(), JobRefusal> {
+        map.admit_order(order)?;
+        self.admit_job(kind, order)?;
+        // A robot that does not know its place does not know what it can reach from there.
+        if !estimate.is_sure() {
+            return Ok(());
+        }
+        let from = estimate.pose.position();
+        coverage::admit_reach(order, map, from, self.config.body.radius_m)
     }
 
     fn admit_dock(&self) -> Result<(), JobRefusal> {

@@ -119,7 +119,7 @@ impl Behavior {
         let before = self.job.replace(Job::new(JobKind::Dock, figures));
         let goes_on = matches!(reason, Reason::BatteryLow | Reason::LookAgain);
         // Nobody waits any more where it was sent hours ago.
-        self.put_off = before.filter(|job| goes_on && matches!(job.kind, JobKind::Clean(_) | JobKind::Spot));
+        self.put_off = before.filter(|job| goes_on && job.kind.cleans());
         if let Some(job) = &mut self.put_off {
             job.interrupt();
         }

@@ -83,7 +83,7 @@ impl Behavior {
         self.put_off = None;
         self.slips = 0;
         self.no_current_tries = 0;
-        if matches!(kind, JobKind::Clean(_) | JobKind::Spot) {
+        if kind.cleans() {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading && !self.facts.hears_beacons {
                 context.decide(DecisionKind::KeepNoMap, Reason::NoHeading, 0.0);

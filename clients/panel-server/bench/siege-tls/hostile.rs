@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use panel_bench::{Caller, Door, Tls};
 use tungstenite::Message;
-use vthal_bench::{next_random, nonsense};
+use vthal_bench::{estimate, next_random, nonsense};
 
 use crate::honest::Phone;
 
@@ -19,6 +19,8 @@ pub(crate) const LARGE_FILE: &str = "large.wasm";
 /// Its bytes.
 pub(crate) const LARGE_FILE_BYTES: usize = 3 << 20;
 
+/// Tenths of a metre of the large home in which zones to be estimated begin.
+const LARGE_HOME: [usize; 2] = [150, 150];
 /// Peers that do not read are four with 32 connections each.
 const SEATS_OF_ONE: u64 = 32;
 /// Connections that a peer of other kinds keeps: ten peers have nearly all seats.
@@ -353,7 +355,7 @@ impl Besieger<'_> {
         while !self.siege.is_over() {
             if Instant::now() >= next {
                 let request = match self.kind {
-                    Kind::Estimates => estimate(&mut self.random),
+                    Kind::Estimates => estimate(&mut self.random, LARGE_HOME),
                     Kind::Nonsense => nonsense::request(&mut self.random),
                     _ => r#"{"c":"stop","id":1}"#.to_owned(),
                 };
@@ -386,22 +388,6 @@ impl Besieger<'_> {
         }
         Ok(())
     }
-}
-
-/// An estimate of a zone somewhere in the home.
-fn estimate(state: &mut u64) -> String {
-    let parts: Vec<String> = (0..16)
-        .map(|_| {
-            let x_m = nonsense::index(state, 150) as f64 / 10.0;
-            let y_m = nonsense::index(state, 150) as f64 / 10.0;
-            let (right_m, top_m) = (x_m + 2.5, y_m + 1.5);
-            format!(r#"{{"zone":[[{x_m},{y_m}],[{right_m},{y_m}],[{right_m},{top_m}],[{x_m},{top_m}]]}}"#)
-        })
-        .collect();
-    format!(
-        r#"{{"c":"estimate","parts":[{}],"passes":3,"id":1}}"#,
-        parts.join(",")
-    )
 }
 
 fn is_ended(mut stream: &TcpStream) -> bool {

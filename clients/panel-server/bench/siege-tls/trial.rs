@@ -9,7 +9,7 @@ use pairing::Role;
 use panel_bench::{Caller, Door, keep_large_home};
 use rvac_protocol::message::BinaryKinds;
 use vthal_bench::{
-    Client, Daemon, LivingRobot, Processor, Scratch, SyntheticRobot, needed_beside, resident_max_mib,
+    Client, Daemon, Delays, LivingRobot, Processor, Scratch, SyntheticRobot, needed_beside, resident_max_mib,
 };
 
 use crate::honest::{self, Phone, Watch};
@@ -30,26 +30,6 @@ pub(crate) struct Trial {
     pub(crate) kind: Kind,
     pub(crate) of_a_kind: u64,
     pub(crate) time: Duration,
-}
-
-/// Delays, milliseconds.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Delays {
-    pub(crate) median: f64,
-    pub(crate) p99: f64,
-    pub(crate) most: f64,
-}
-
-impl Delays {
-    fn of(mut delays_ms: Vec<f64>) -> Option<Self> {
-        delays_ms.sort_by(f64::total_cmp);
-        let rank = |share: f64| delays_ms.get((delays_ms.len() as f64 * share) as usize).copied();
-        Some(Self {
-            median: rank(0.5)?,
-            p99: rank(0.99)?,
-            most: *delays_ms.last()?,
-        })
-    }
 }
 
 /// What a process took.
