@@ -5,7 +5,10 @@ use std::collections::BTreeSet;
 use rvac_api::short_number;
 use serde::Deserialize;
 
-use crate::{Calibration, Condition, Line, Name, Output, OutputKind, Profile, Source, VERSION};
+use crate::{
+    Calibration, Condition, FlightMode, Line, Name, Output, OutputKind, OutputName, Profile, Source,
+    TRIM_MAX, Trim, VERSION,
+};
 
 /// Largest profile in bytes of JSON. It travels inside of one request.
 pub const PROFILE_BYTES_MAX: usize = 10 << 10;
@@ -13,6 +16,12 @@ pub const PROFILE_BYTES_MAX: usize = 10 << 10;
 pub const LINES_MAX: usize = 24;
 /// Most switches.
 pub const SWITCHES_MAX: usize = 16;
+/// Most flight modes.
+pub const MODES_MAX: usize = 8;
+/// Smallest and largest step of a trim.
+const TRIM_STEP: (f64, f64) = (0.001, 0.1);
+/// Longest time in which one flight mode goes over into another.
+const FADE_MS_MAX: u16 = 5_000;
 /// Most points of a curve.
 pub const POINTS_MAX: usize = 17;
 /// Most inputs with a calibration.
@@ -127,6 +136,28 @@ pub enum ProfileError {
         /// The name.
         name: String,
     },
+    /// A flight mode is named that is not defined.
+    #[error("{place}: no mode has the name `{name}`: add one, or take another")]
+    NoMode {
+        /// Where.
+        place: String,
+        /// The name.
+        name: String,
+    },
+    /// A flight mode has a value of a trim that is not defined.
+    #[error("{place}: `{output}` has no trim: add one, or remove this value")]
+    NoTrim {
+        /// Where.
+        place: String,
+        /// The output.
+        output: OutputName,
+    },
+    /// A trim of what does not move the robot.
+    #[error("{place}: only forward, turn, left-wheel and right-wheel can be trimmed: remove it")]
+    NotTrimmed {
+        /// Where.
+        place: String,
+    },
     /// A switch that joins none.
     #[error("{place}: name at least one switch")]
     JoinsNone {
@@ -181,6 +212,11 @@ pub(crate) fn check(profile: &Profile) -> Result<(), ProfileError> {
     }
     calibrations(&profile.inputs)?;
     let switches = switches(profile)?;
+    trims(&profile.trims, &switches)?;
+    let known = Known {
+        modes: modes(profile, &switches)?,
+        switches,
+    };
     let mut seen = BTreeSet::new();
     for (number, output) in profile.outputs.iter().enumerate() {
         if !seen.insert(output.output) {
@@ -190,7 +226,71 @@ pub(crate) fn check(profile: &Profile) -> Result<(), ProfileError> {
         }
         check_output(output)?;
         for (line_number, line) in output.lines.iter().enumerate() {
-            check_line(&profile.line_place(number, line_number), line, &switches)?;
+            check_line(&profile.line_place(number, line_number), line, &known)?;
+        }
+    }
+    Ok(())
+}
+
+/// Names that lines may refer to.
+struct Known<'profile> {
+    switches: BTreeSet<&'profile Name>,
+    modes: BTreeSet<&'profile Name>,
+}
+
+fn trims(all: &[Trim], switches: &BTreeSet<&Name>) -> Result<(), ProfileError> {
+    let mut seen = BTreeSet::new();
+    for trim in all {
+        let place = trim.place();
+        if !seen.insert(trim.output) {
+            return Err(ProfileError::Twice { place });
+        }
+        if trim.output.kind() != OutputKind::Motion {
+            return Err(ProfileError::NotTrimmed { place });
+        }
+        for button in [&trim.up, &trim.down] {
+            source(&place, button, switches)?;
+        }
+        range((&place, "step"), trim.step, TRIM_STEP)?;
+        range((&place, "value"), trim.value, (-TRIM_MAX, TRIM_MAX))?;
+    }
+    Ok(())
+}
+
+/// Checks the flight modes and gives their names.
+fn modes<'profile>(
+    profile: &'profile Profile,
+    switches: &BTreeSet<&Name>,
+) -> Result<BTreeSet<&'profile Name>, ProfileError> {
+    at_most("modes", profile.modes.len(), MODES_MAX)?;
+    let mut known = BTreeSet::new();
+    for mode in &profile.modes {
+        let place = mode.place();
+        is_known(&place, &mode.when, switches)?;
+        range(
+            (&place, "fade-ms"),
+            f64::from(mode.fade_ms),
+            (0.0, f64::from(FADE_MS_MAX)),
+        )?;
+        own_trims(&place, mode, &profile.trims)?;
+        if !known.insert(&mode.name) {
+            return Err(ProfileError::Twice { place });
+        }
+    }
+    Ok(known)
+}
+
+fn own_trims(place: &str, mode: &FlightMode, trims: &[Trim]) -> Result<(), ProfileError> {
+    let mut seen = BTreeSet::new();
+    for own in &mode.trims {
+        let place = format!("{place}, trim {}", own.output);
+        if !trims.iter().any(|trim| trim.output == own.output) {
+            let output = own.output;
+            return Err(ProfileError::NoTrim { place, output });
+        }
+        range((&place, "value"), own.value, (-TRIM_MAX, TRIM_MAX))?;
+        if !seen.insert(own.output) {
+            return Err(ProfileError::Twice { place });
         }
     }
     Ok(())
@@ -270,10 +370,16 @@ fn check_output(output: &Output) -> Result<(), ProfileError> {
     at_most(&place, output.lines.len(), LINES_MAX)
 }
 
-fn check_line(place: &str, line: &Line, switches: &BTreeSet<&Name>) -> Result<(), ProfileError> {
-    source(place, &line.input, switches)?;
+fn check_line(place: &str, line: &Line, known: &Known<'_>) -> Result<(), ProfileError> {
+    source(place, &line.input, &known.switches)?;
     if let Some(name) = &line.when {
-        is_known(place, name, switches)?;
+        is_known(place, name, &known.switches)?;
+    }
+    if let Some(name) = line.modes.iter().find(|name| !known.modes.contains(name)) {
+        return Err(ProfileError::NoMode {
+            place: place.to_owned(),
+            name: name.to_string(),
+        });
     }
     range((place, "expo"), line.expo, (-1.0, 1.0))?;
     range((place, "weight"), line.weight, (-WEIGHT_MAX, WEIGHT_MAX))?;

@@ -65,6 +65,8 @@ pub fn standard_profile() -> Profile {
                 level: 0.5,
             },
         }],
+        trims: Vec::new(),
+        modes: Vec::new(),
         outputs: outputs(),
     }
 }

@@ -56,6 +56,9 @@ pub struct Line {
     /// The switch that must be on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub when: Option<Name>,
+    /// The flight modes in which it counts; all of them when none is named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modes: Vec<Name>,
     /// The input must be away from rest for so long before the line follows it; back to rest it follows at once.
     #[serde(default, skip_serializing_if = "is_none_ms")]
     pub delay_ms: u16,
@@ -81,15 +84,26 @@ impl Line {
             offset: 0.0,
             mix: Mix::Add,
             when: None,
+            modes: Vec::new(),
             delay_ms: 0,
             slow_up_per_s: 0.0,
             slow_down_per_s: 0.0,
         }
     }
 
+    /// Whether somebody switches it on, by a switch or by the one of a flight mode.
+    pub(crate) fn is_switched(&self) -> bool {
+        self.when.is_some() || !self.modes.is_empty()
+    }
+
+    /// Whether it counts in this flight mode; `None` = no mode holds.
+    pub(crate) fn counts_in(&self, mode: Option<&Name>) -> bool {
+        self.modes.is_empty() || mode.is_some_and(|mode| self.modes.contains(mode))
+    }
+
     /// Whether it is on without anybody doing anything: such a line moves nothing by itself.
     pub(crate) fn is_background(&self) -> bool {
-        self.input == Source::Always && self.when.is_none()
+        self.input == Source::Always && !self.is_switched()
     }
 }
 

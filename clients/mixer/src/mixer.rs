@@ -2,18 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::line::{Line, Mix};
+use crate::flight_mode::Fade;
+use crate::line::Mix;
+use crate::line_step::{LineMemory, Slows, Step, is_on, read};
 use crate::stop_buttons::StopButtons;
 use crate::switch::SwitchMemory;
+use crate::trim::{self, TrimButtons};
 use crate::{
-    Device, Name, OutputKind, OutputName, Profile, ProfileError, Readings, Source, curved, standard_profile,
-    with_expo,
+    Device, FlightMode, Name, OutputKind, OutputName, Profile, ProfileError, Readings, Source, Trim,
+    TrimValue, standard_profile,
 };
 
 /// A longer pause between two steps is a loss: the page slept, or the lid was closed.
 pub const GAP_MAX_US: u64 = 400_000;
-/// What lines make is kept within this, however they multiply.
-const TOTAL_MAX: f64 = 1_000.0;
 /// A button is pressed above this.
 const PRESSED: f64 = 0.5;
 
@@ -74,13 +75,12 @@ pub struct Mixed {
     pub outputs: Vec<MixedOutput>,
     /// The switches, in the order of the profile.
     pub switches: Vec<bool>,
+    /// The flight mode that holds, by its place in the profile; none when no switch of one is on.
+    pub mode: Option<usize>,
+    /// The trims as they are in that mode, in the order of the profile.
+    pub trims: Vec<TrimValue>,
     /// Buttons that rose in this step. Stop does so after a loss too.
     pub fired: Vec<OutputName>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct LineMemory {
-    moved_since_us: Option<u64>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -88,6 +88,8 @@ struct OutputMemory {
     lines: Vec<LineMemory>,
     /// What the lines made together in the last step, after slow.
     made: Option<f64>,
+    /// What they made when the flight mode changed.
+    fades_from: f64,
     /// The button was seen free, so that its next press counts.
     freed: bool,
 }
@@ -100,6 +102,13 @@ pub struct Mixer {
     present: Vec<Device>,
     outputs: Vec<OutputMemory>,
     switches: Vec<SwitchMemory>,
+    /// The flight mode that holds, and how the outputs go over to it.
+    mode: Option<usize>,
+    fade: Option<Fade>,
+    trim_buttons: Vec<TrimButtons>,
+    /// Those of the profile, as they were set since.
+    trims: Vec<Trim>,
+    modes: Vec<FlightMode>,
     last_us: Option<u64>,
     state: MixState,
     stops: StopButtons,
@@ -131,11 +140,18 @@ impl Mixer {
             present: Vec::new(),
             outputs: Vec::new(),
             switches: Vec::new(),
+            mode: None,
+            fade: None,
+            trim_buttons: Vec::new(),
+            trims: Vec::new(),
+            modes: Vec::new(),
             last_us: None,
             state: MixState::Failsafe,
             stops: StopButtons::default(),
         };
         mixer.stops = StopButtons::of(&mixer.profile);
+        mixer.trims.clone_from(&mixer.profile.trims);
+        mixer.modes.clone_from(&mixer.profile.modes);
         mixer.forget();
         mixer
     }
@@ -144,6 +160,16 @@ impl Mixer {
     #[must_use]
     pub const fn profile(&self) -> &Profile {
         &self.profile
+    }
+
+    /// The profile with its trims as they were set since.
+    #[must_use]
+    pub fn trimmed(&self) -> Profile {
+        Profile {
+            trims: self.trims.clone(),
+            modes: self.modes.clone(),
+            ..self.profile.clone()
+        }
     }
 
     /// Gives all outputs for what the inputs read now.
@@ -163,6 +189,8 @@ impl Mixer {
             self.forget();
         }
         self.step_switches(now_us, readings);
+        self.step_mode(now_us);
+        self.step_trims(readings);
         let was_live = self.state == MixState::Live;
         let mut step = Step {
             now_us,
@@ -191,6 +219,8 @@ impl Mixer {
             away,
             outputs: self.limited(outputs),
             switches: self.switches.iter().map(|switch| switch.on).collect(),
+            mode: self.mode,
+            trims: self.trim_values(),
             fired,
         }
     }
@@ -200,10 +230,13 @@ impl Mixer {
         let memory = |output: &crate::Output| OutputMemory {
             lines: vec![LineMemory::default(); output.lines.len()],
             made: None,
+            fades_from: 0.0,
             freed: false,
         };
         self.outputs = self.profile.outputs.iter().map(memory).collect();
         self.switches = vec![SwitchMemory::default(); self.profile.switches.len()];
+        self.trim_buttons = vec![TrimButtons::default(); self.profile.trims.len()];
+        self.fade = None;
     }
 
     fn step_switches(&mut self, now_us: u64, readings: &Readings) {
@@ -217,14 +250,81 @@ impl Mixer {
         }
     }
 
+    /// The first flight mode whose switch is on holds from now on.
+    fn step_mode(&mut self, now_us: u64) {
+        let modes = self.profile.modes.iter();
+        let is_on = |mode: &FlightMode| is_on(&self.profile, &self.switches, &mode.when);
+        let mode = modes.clone().position(is_on);
+        if mode == self.mode {
+            return;
+        }
+        // Out of a mode the outputs go over as slowly as into it.
+        let fade_ms = [self.mode, mode]
+            .into_iter()
+            .flatten()
+            .filter_map(|place| self.profile.modes.get(place))
+            .map(|mode| mode.fade_ms)
+            .max();
+        self.fade = Some(Fade {
+            began_us: now_us,
+            length_us: u64::from(fade_ms.unwrap_or(0)) * 1000,
+        });
+        for output in &mut self.outputs {
+            output.fades_from = output.made.unwrap_or_default();
+        }
+        self.mode = mode;
+    }
+
+    /// Buttons that trim, which do nothing until the outputs follow the inputs.
+    fn step_trims(&mut self, readings: &Readings) {
+        let Self {
+            profile,
+            switches,
+            trim_buttons,
+            ..
+        } = self;
+        let value = |source: &Source| read(profile, switches, readings, source);
+        let presses: Vec<f64> = profile
+            .trims
+            .iter()
+            .zip(trim_buttons)
+            .map(|(trim, buttons)| buttons.rise(trim, value))
+            .collect();
+        if self.state != MixState::Live {
+            return;
+        }
+        let Self {
+            trims, modes, mode, ..
+        } = self;
+        for (trim, steps) in trims.iter_mut().zip(presses).filter(|(_, steps)| *steps != 0.0) {
+            trim::press(trim, mode.and_then(|place| modes.get_mut(place)), steps);
+        }
+    }
+
+    fn trim_values(&self) -> Vec<TrimValue> {
+        let mode = self.mode.and_then(|place| self.modes.get(place));
+        let trims = self.trims.iter();
+        trims
+            .map(|trim| TrimValue {
+                output: trim.output,
+                value: trim::value_in(trim, mode),
+            })
+            .collect()
+    }
+
     /// The lines of all outputs; the values are not limited yet.
     fn step_outputs(&mut self, step: &mut Step, readings: &Readings) -> Vec<MixedOutput> {
         let Self {
             profile,
             outputs,
             switches,
+            mode,
+            fade,
             ..
         } = self;
+        let mode = mode
+            .and_then(|place| profile.modes.get(place))
+            .map(|mode| &mode.name);
         let mut all = Vec::with_capacity(outputs.len());
         for (output, memory) in profile.outputs.iter().zip(outputs) {
             let mut total = 0.0;
@@ -233,19 +333,22 @@ impl Mixer {
             let OutputMemory {
                 lines: line_memories,
                 made,
+                fades_from,
                 ..
             } = memory;
+            let mut is_pushed = false;
             for (line, memory) in output.lines.iter().zip(line_memories) {
                 let raw = read(profile, switches, readings, &line.input);
                 let is_permitted = line
                     .when
                     .as_ref()
-                    .is_none_or(|name| is_on(profile, switches, name));
+                    .is_none_or(|name| is_on(profile, switches, name))
+                    && line.counts_in(mode);
                 let input = raw.filter(|_| is_permitted);
                 let stages = step.line((line, memory), input, total);
                 let reading = readings.value(&line.input).or(raw).unwrap_or_default();
                 if output.output.kind() != OutputKind::Button {
-                    step.note((profile, line), &stages, input.map(|_| reading));
+                    is_pushed |= step.note((profile, line), &stages, input.map(|_| reading));
                 } else if stages.weighted > PRESSED {
                     step.away_from_rest(&line.input, reading);
                 }
@@ -257,6 +360,10 @@ impl Mixer {
             }
             let target = total;
             total = step.slow(slows, *made, target);
+            // Who lets go waits for no fade.
+            if let Some(fade) = fade.filter(|_| is_pushed) {
+                total = fade.between(*fades_from, total, step.now_us);
+            }
             *made = Some(total);
             let moves = output
                 .lines
@@ -290,172 +397,14 @@ impl Mixer {
     }
 
     fn limited(&self, mut outputs: Vec<MixedOutput>) -> Vec<MixedOutput> {
+        let trims = self.trim_values();
         for (mixed, output) in outputs.iter_mut().zip(&self.profile.outputs) {
+            let trim = trims.iter().find(|trim| trim.output == output.output);
             mixed.value = match self.state {
-                MixState::Live => output.value(mixed.value),
+                MixState::Live => output.value(mixed.value, trim.map_or(0.0, |trim| trim.value)),
                 MixState::Failsafe => output.failsafe,
             };
         }
         outputs
     }
-}
-
-/// One step of all lines.
-struct Step {
-    now_us: u64,
-    span_s: f64,
-    /// Something that moves or cleans is away from rest, slows included.
-    held: bool,
-    /// The inputs that are.
-    away: Vec<AwayFromRest>,
-    /// Their devices.
-    pushed: BTreeSet<Device>,
-    /// The outputs followed the inputs in the step before.
-    is_live: bool,
-}
-
-impl Step {
-    /// One line. `input` is none while it is absent or the line is switched off.
-    fn line(&self, (line, memory): (&Line, &mut LineMemory), input: Option<f64>, total: f64) -> LineStages {
-        let rest = match line.mix {
-            Mix::Replace => total,
-            mix => mix.rest(),
-        };
-        let shaped = input.map_or(0.0, |input| shape(line, input));
-        let moved = shaped != 0.0;
-        let since_us = *memory.moved_since_us.get_or_insert(self.now_us);
-        if !moved {
-            memory.moved_since_us = None;
-        }
-        let waited = self.now_us.saturating_sub(since_us) >= u64::from(line.delay_ms) * 1000;
-        let followed = if moved && waited { shaped } else { 0.0 };
-        // What is on without a person waits as a whole.
-        let is_off = input.is_none() || (line.input == Source::Always && !waited);
-        let weighted = if is_off { rest } else { weigh(line, followed) };
-        let total = match line.mix {
-            Mix::Add => total + weighted,
-            Mix::Multiply => total * weighted,
-            Mix::Replace => weighted,
-        };
-        LineStages {
-            input,
-            shaped,
-            weighted,
-            total: total.clamp(-TOTAL_MAX, TOTAL_MAX),
-        }
-    }
-
-    /// What an output makes that made `from` and is to make `to`. While nothing follows the inputs there is nothing to be slow about.
-    fn slow(&self, slows: Slows, from: Option<f64>, to: f64) -> f64 {
-        let Some(from) = from.filter(|_| self.is_live) else {
-            return to;
-        };
-        // Without a limit the product with a span of 0 would be none.
-        let reach = |per_s: f64| match per_s.is_finite() {
-            true => per_s * self.span_s,
-            false => f64::INFINITY,
-        };
-        to.clamp(from - reach(slows.down_per_s), from + reach(slows.up_per_s))
-    }
-
-    /// Notes whether a line makes the person the driver.
-    fn note(&mut self, (profile, line): (&Profile, &Line), stages: &LineStages, reading: Option<f64>) {
-        let Some(reading) = reading else { return };
-        if line.mix == Mix::Multiply || line.is_background() {
-            return;
-        }
-        let idle = if line.when.is_some() {
-            0.0
-        } else {
-            idle(profile, line)
-        };
-        if stages.weighted != idle {
-            self.away_from_rest(&line.input, reading);
-            self.pushed.extend(profile.devices_of(line));
-            self.held = true;
-        }
-    }
-
-    fn away_from_rest(&mut self, input: &Source, reading: f64) {
-        if !self.away.iter().any(|away| away.input == *input) {
-            self.away.push(AwayFromRest {
-                input: input.clone(),
-                reading,
-            });
-        }
-    }
-}
-
-/// The tightest slows of the lines of an output that are on, per second.
-#[derive(Clone, Copy, Debug)]
-struct Slows {
-    up_per_s: f64,
-    down_per_s: f64,
-}
-
-impl Default for Slows {
-    fn default() -> Self {
-        Self {
-            up_per_s: f64::INFINITY,
-            down_per_s: f64::INFINITY,
-        }
-    }
-}
-
-impl Slows {
-    fn tighten(&mut self, line: &Line) {
-        for (limit, per_s) in [
-            (&mut self.up_per_s, line.slow_up_per_s),
-            (&mut self.down_per_s, line.slow_down_per_s),
-        ] {
-            if per_s > 0.0 {
-                *limit = limit.min(per_s);
-            }
-        }
-    }
-}
-
-/// What a line makes while nobody touches its input.
-fn idle(profile: &Profile, line: &Line) -> f64 {
-    let centre = profile
-        .calibration(&line.input)
-        .map_or(0.0, |calibration| calibration.centre);
-    response(profile, line, centre)
-}
-
-/// What a line of the profile makes of a reading in the end, when its delay is over and it needs to be slow no more.
-#[must_use]
-pub fn response(profile: &Profile, line: &Line, reading: f64) -> f64 {
-    weigh(line, shape(line, calibrated(profile, &line.input, reading)))
-}
-
-fn shape(line: &Line, input: f64) -> f64 {
-    let turned = if line.invert { -input } else { input };
-    curved(with_expo(turned, line.expo), &line.curve)
-}
-
-fn weigh(line: &Line, shaped: f64) -> f64 {
-    shaped * line.weight + line.offset
-}
-
-/// The calibrated value of an input, -1..=1.
-fn read(profile: &Profile, switches: &[SwitchMemory], readings: &Readings, source: &Source) -> Option<f64> {
-    if let Source::Switch(name) = source {
-        return Some(f64::from(u8::from(is_on(profile, switches, name))));
-    }
-    Some(calibrated(profile, source, readings.value(source)?))
-}
-
-fn calibrated(profile: &Profile, source: &Source, raw: f64) -> f64 {
-    profile
-        .calibration(source)
-        .map_or(raw, |calibration| calibration.apply(raw))
-        .clamp(-1.0, 1.0)
-}
-
-fn is_on(profile: &Profile, switches: &[SwitchMemory], name: &Name) -> bool {
-    let place = profile.switches.iter().position(|switch| switch.name == *name);
-    place
-        .and_then(|place| switches.get(place))
-        .is_some_and(|switch| switch.on)
 }

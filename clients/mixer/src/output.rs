@@ -156,14 +156,15 @@ impl Output {
         }
     }
 
-    /// The value for what the lines have made.
-    pub(crate) fn value(&self, total: f64) -> f64 {
+    /// The value for what the lines have made, with a trim of the centre.
+    pub(crate) fn value(&self, total: f64, trim: f64) -> f64 {
+        let centre = (self.centre + trim).clamp(self.low, self.high);
         let share = total.clamp(-1.0, 1.0) * if self.reverse { -1.0 } else { 1.0 };
         let reach = if share < 0.0 {
-            self.centre - self.low
+            centre - self.low
         } else {
-            self.high - self.centre
+            self.high - centre
         };
-        (self.centre + share * reach).clamp(self.low, self.high)
+        (centre + share * reach).clamp(self.low, self.high)
     }
 }

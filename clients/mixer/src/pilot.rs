@@ -71,6 +71,12 @@ impl Pilot {
         self.mixer.profile()
     }
 
+    /// The profile with its trims as they were set since.
+    #[must_use]
+    pub fn trimmed(&self) -> Profile {
+        self.mixer.trimmed()
+    }
+
     /// Looks at the inputs. To be called every [`STEP_EVERY_US`], and at once when an input is lost.
     pub fn step(&mut self, now_us: u64, readings: &Readings, top: TopSpeeds) -> Steered {
         let is_pushed = |pad| self.pushed.contains(&Device::Pad(pad));

@@ -1,6 +1,6 @@
 //! Where in a profile something is, in the words of the messages, so that a form can show a message beside its field.
 
-use crate::{Calibration, Output, Profile, ProfileError, Switch};
+use crate::{Calibration, FlightMode, Output, Profile, ProfileError, Switch, Trim};
 
 impl ProfileError {
     /// The place that it names; none when it is about the whole.
@@ -16,6 +16,9 @@ impl ProfileError {
             | Self::TooMany { place, .. }
             | Self::Twice { place }
             | Self::NoSwitch { place, .. }
+            | Self::NoMode { place, .. }
+            | Self::NoTrim { place, .. }
+            | Self::NotTrimmed { place, .. }
             | Self::JoinsNone { place } => Some(place),
         }
     }
@@ -34,6 +37,22 @@ impl Switch {
     #[must_use]
     pub fn place(&self) -> String {
         format!("switch {}", self.name)
+    }
+}
+
+impl Trim {
+    /// Its place.
+    #[must_use]
+    pub fn place(&self) -> String {
+        format!("trim {}", self.output)
+    }
+}
+
+impl FlightMode {
+    /// Its place.
+    #[must_use]
+    pub fn place(&self) -> String {
+        format!("mode {}", self.name)
     }
 }
 

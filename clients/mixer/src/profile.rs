@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{self, ProfileError};
-use crate::{Device, Line, Name, Output, Source, Switch};
+use crate::{Device, FlightMode, Line, Name, Output, Source, Switch, Trim};
 
 /// Version of the form of profiles. Raised when a key changes its meaning; this program reads only its own.
 pub const VERSION: u32 = 1;
@@ -71,6 +71,12 @@ pub struct Profile {
     /// Switches. Each may refer to those before it.
     #[serde(default)]
     pub switches: Vec<Switch>,
+    /// Trims, each output at most once.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub trims: Vec<Trim>,
+    /// Flight modes; the first whose switch is on holds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modes: Vec<FlightMode>,
     /// Outputs, each at most once.
     pub outputs: Vec<Output>,
 }
@@ -104,11 +110,12 @@ impl Profile {
         serde_json::to_string_pretty(self).expect("plain types without maps can be written")
     }
 
-    /// The inputs of all lines and switches, in their order.
+    /// The inputs of all lines, switches and trims, in their order.
     pub fn sources(&self) -> impl Iterator<Item = &Source> {
         let lines = self.outputs.iter().flat_map(|output| &output.lines);
         let conditions = self.switches.iter().filter_map(|switch| switch.on.input());
-        lines.map(|line| &line.input).chain(conditions)
+        let buttons = self.trims.iter().flat_map(|trim| [&trim.up, &trim.down]);
+        lines.map(|line| &line.input).chain(conditions).chain(buttons)
     }
 
     /// The devices by which a person holds a line: that of its input, or those that switch it on.
@@ -116,6 +123,12 @@ impl Profile {
     pub fn devices_of(&self, line: &Line) -> BTreeSet<Device> {
         match (&line.input, &line.when) {
             (Source::Switch(name), _) | (Source::Always, Some(name)) => self.devices_of_switch(name),
+            (Source::Always, None) => {
+                let modes = self.modes.iter().filter(|mode| line.modes.contains(&mode.name));
+                modes
+                    .flat_map(|mode| self.devices_of_switch(&mode.when))
+                    .collect()
+            }
             (input, _) => input.device().into_iter().collect(),
         }
     }

@@ -5,7 +5,7 @@ use std::fmt;
 
 use rvac_api::{Explanation, explain};
 
-use crate::{AwayFromRest, MixState, Source, Steered};
+use crate::{AwayFromRest, MixState, Source, Steered, TrimValue};
 
 /// Name of the reason why a pushed pad that says nothing stops the wheels.
 const PAD_SILENT: &str = "pad-silent";
@@ -23,6 +23,8 @@ pub enum Remark {
     PadSilent(u8),
     /// These inputs are not at rest.
     NotAtRest(Vec<AwayFromRest>),
+    /// A trim was set.
+    Trimmed(TrimValue),
 }
 
 impl fmt::Display for Remark {
@@ -34,6 +36,7 @@ impl fmt::Display for Remark {
                 let why = explain(PAD_SILENT).map(Explanation::text).unwrap_or_default();
                 write!(formatter, "pad-{pad} is silent ({PAD_SILENT}): {why}")
             }
+            Self::Trimmed(trim) => write!(formatter, "trim of {}: {:+.1} %", trim.output, 100.0 * trim.value),
             Self::NotAtRest(inputs) => {
                 let readings: Vec<String> = inputs
                     .iter()
@@ -57,6 +60,7 @@ pub struct Remarks {
     state: Option<MixState>,
     named_us: u64,
     named: Vec<Source>,
+    trims: Vec<TrimValue>,
 }
 
 impl Remarks {
@@ -73,6 +77,12 @@ impl Remarks {
                 MixState::Failsafe => Remark::WaitsForRest,
             });
         }
+        let set = mixed.trims.iter().filter(|trim| {
+            let before = self.trims.iter().find(|before| before.output == trim.output);
+            before.is_some_and(|before| before.value != trim.value)
+        });
+        remarks.extend(set.copied().map(Remark::Trimmed));
+        self.trims.clone_from(&mixed.trims);
         let named: Vec<Source> = mixed.away.iter().map(|away| away.input.clone()).collect();
         let is_soon = now_us.saturating_sub(self.named_us) < NAMED_EVERY_US;
         if !named.is_empty() && named != self.named && !is_soon {

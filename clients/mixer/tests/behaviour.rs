@@ -170,6 +170,8 @@ fn forward(lines: Vec<Line>, switches: Vec<Switch>) -> Profile {
         name: name("test"),
         inputs: Vec::new(),
         switches,
+        trims: Vec::new(),
+        modes: Vec::new(),
         outputs: vec![Output {
             lines,
             ..Output::new(OutputName::Forward)
@@ -482,4 +484,118 @@ fn a_profile_has_a_largest_size() {
         output.lines = vec![line; 10];
     }
     assert!(matches!(profile.check(), Err(ProfileError::TooLarge { .. })));
+}
+
+/// Forward and turn by the two axes of a stick, with a trim of the turn by buttons 0 and 1, and a mode on button 4.
+fn trimmed(more: &str) -> Profile {
+    let text = format!(
+        r#"{{"version":1,"name":"one","switches":[{{"name":"a","on":{{"above":{{"input":"pad-0-button-4","level":0.5}}}}}}],
+        "trims":[{{"output":"turn","up":"pad-0-button-0","down":"pad-0-button-1","step":0.05}}],
+        "modes":[{{"name":"indoors","when":"a"{more}}}],
+        "outputs":[
+        {{"output":"forward","low":-1,"high":1,"lines":[{{"name":"usual","input":"pad-0-axis-0"}},
+        {{"name":"slow","input":"always","weight":0.5,"mix":"multiply","modes":["indoors"]}}]}},
+        {{"output":"turn","low":-1,"high":1,"lines":[{{"name":"usual","input":"pad-0-axis-1"}}]}}]}}"#
+    );
+    Profile::parse(&text).expect("a profile")
+}
+
+/// Value of the turn while the robot drives straight ahead.
+fn turn_ahead(mixed: &Mixed) -> f64 {
+    mixed.wish().axes.turn
+}
+
+#[test]
+fn a_trim_counts_while_something_is_held_and_each_press_once() {
+    let mut hands = Hands::on(trimmed(""));
+    hands.axis(0, 0.0);
+    for _ in 0..3 {
+        hands.button(0, 1.0);
+        hands.step();
+        hands.button(0, 0.0);
+    }
+    let free = hands.step();
+    assert!(!free.held && free.state == MixState::Live, "{free:?}");
+    assert_eq!(free.wish().axes.turn, 0.0, "a trim does not drive");
+    assert!((free.trims[0].value - 0.15).abs() < 1e-9, "{:?}", free.trims);
+    let ahead = hands.axis(0, 1.0);
+    assert!((turn_ahead(&ahead) - 0.15).abs() < 1e-9, "{ahead:?}");
+    for _ in 0..20 {
+        hands.button(1, 1.0);
+        hands.button(1, 0.0);
+    }
+    assert_eq!(hands.step().trims[0].value, -mixer::TRIM_MAX);
+}
+
+#[test]
+fn a_mode_has_lines_and_trims_of_its_own() {
+    let mut hands = Hands::on(trimmed(r#","trims":[{"output":"turn","value":0.1}]"#));
+    hands.axis(1, 0.0);
+    assert_eq!(hands.axis(0, 0.8).outputs[0].value, 0.8);
+    let indoors = hands.button(4, 1.0);
+    assert_eq!((indoors.mode, indoors.outputs[0].value), (Some(0), 0.4));
+    assert!((turn_ahead(&indoors) - 0.1).abs() < 1e-9);
+    hands.button(0, 1.0);
+    let outdoors = hands.button(4, 0.0);
+    assert_eq!((outdoors.mode, outdoors.outputs[0].value), (None, 0.8));
+    assert_eq!(outdoors.trims[0].value, 0.0, "the press was for the mode");
+    assert!((hands.button(4, 1.0).trims[0].value - 0.15).abs() < 1e-9);
+}
+
+#[test]
+fn a_mode_goes_over_gradually_and_not_for_who_lets_go() {
+    let mut hands = Hands::on(trimmed(r#","fade-ms":1000"#));
+    hands.axis(1, 0.0);
+    hands.axis(0, 0.8);
+    let mut before = hands.button(4, 1.0).outputs[0].value;
+    assert!(before > 0.75, "{before}");
+    for _ in 0..60 {
+        let value = hands.step().outputs[0].value;
+        assert!(
+            before - value < 0.02 && value <= before + 1e-9,
+            "{before} to {value}"
+        );
+        before = value;
+    }
+    assert!((before - 0.4).abs() < 1e-9, "{before}");
+    hands.button(4, 0.0);
+    let free = hands.axis(0, 0.0);
+    assert_eq!(free.outputs[0].value, 0.0);
+    assert!(!free.held);
+}
+
+#[test]
+fn what_is_wrong_with_a_trim_or_a_mode_is_said_at_its_place() {
+    let told = |text: &str| Profile::parse(text).expect_err("it is wrong").to_string();
+    let with = |more: &str| format!(r#"{{"version":1,"name":"one",{more},"outputs":[]}}"#);
+    let trim = r#"{"output":"turn","up":"key-KeyE","down":"key-KeyQ"}"#;
+    for (more, message) in [
+        (
+            r#""trims":[{"output":"suction","up":"key-KeyE","down":"key-KeyQ"}]"#.to_owned(),
+            "trim suction: only forward, turn, left-wheel and right-wheel can be trimmed: remove it",
+        ),
+        (
+            format!(r#""trims":[{trim},{trim}]"#),
+            "trim turn is there twice: remove one",
+        ),
+        (
+            r#""trims":[{"output":"turn","up":"key-KeyE","down":"key-KeyQ","value":0.5}]"#.to_owned(),
+            "trim turn, value is 0.5: write a number from -0.25 to 0.25",
+        ),
+        (
+            r#""modes":[{"name":"indoors","when":"a"}]"#.to_owned(),
+            "mode indoors: no switch before it has the name `a`: add one, or take another",
+        ),
+    ] {
+        assert_eq!(told(&with(&more)), message);
+    }
+    let no_mode = forward_by(r#"{"name":"one","input":"pad-0-axis-0"}"#);
+    let text = no_mode.to_json().replace(
+        r#""input":"pad-0-axis-0""#,
+        r#""input":"pad-0-axis-0","modes":["b"]"#,
+    );
+    assert_eq!(
+        told(&text),
+        "output forward, line 1 (one): no mode has the name `b`: add one, or take another"
+    );
 }

@@ -27,6 +27,8 @@ fn single(lines: Vec<Line>) -> Profile {
         name: name("single"),
         inputs: Vec::new(),
         switches: Vec::new(),
+        trims: Vec::new(),
+        modes: Vec::new(),
         outputs: vec![Output {
             lines,
             ..Output::new(OutputName::Forward)

@@ -1,8 +1,8 @@
 //! Profiles and readings drawn from numbers.
 
 use mixer::{
-    Calibration, Condition, KeyCode, Line, Mix, Name, Output, OutputKind, OutputName, PadReading, Profile,
-    Readings, Source, Switch, VERSION,
+    Calibration, Condition, FlightMode, KeyCode, Line, Mix, Name, Output, OutputKind, OutputName, PadReading,
+    Profile, Readings, Source, Switch, TRIM_MAX, Trim, TrimValue, VERSION,
 };
 use proptest::prelude::*;
 
@@ -104,6 +104,7 @@ fn line(switches: usize) -> impl Strategy<Value = Line> {
                 offset,
                 mix,
                 when,
+                modes: Vec::new(),
                 delay_ms,
                 slow_up_per_s: up,
                 slow_down_per_s: down,
@@ -136,6 +137,53 @@ fn output(output: OutputName, switches: usize) -> impl Strategy<Value = Output> 
     })
 }
 
+/// Trims, and flight modes on the switches that there are.
+fn flight(switches: usize) -> impl Strategy<Value = (Vec<Trim>, Vec<FlightMode>)> {
+    let value = || -TRIM_MAX..=TRIM_MAX;
+    let trim = (source(switches), source(switches), 0.001..=0.1, value());
+    let trim = trim.prop_map(|(up, down, step, value)| Trim {
+        output: OutputName::Turn,
+        up,
+        down,
+        step,
+        value,
+    });
+    let mode = (0..switches.max(1), 0_u16..=5000, prop::option::of(value()));
+    let modes = prop::option::of(mode);
+    (prop::option::of(trim), modes).prop_map(move |(trim, mode)| {
+        let mode = mode.filter(|_| switches > 0);
+        let has_trim = trim.is_some();
+        let mode = mode.map(|(switch, fade_ms, own)| FlightMode {
+            name: mode_name(),
+            when: switch_name(switch),
+            fade_ms,
+            trims: own
+                .filter(|_| has_trim)
+                .map(|value| TrimValue {
+                    output: OutputName::Turn,
+                    value,
+                })
+                .into_iter()
+                .collect(),
+        });
+        (trim.into_iter().collect(), mode.into_iter().collect())
+    })
+}
+
+/// Every second line counts in the flight mode alone, if there is one.
+fn in_modes(mut outputs: Vec<Output>, modes: &[FlightMode]) -> Vec<Output> {
+    for output in &mut outputs {
+        for line in output.lines.iter_mut().skip(1).step_by(2) {
+            line.modes = modes.iter().map(|mode| mode.name.clone()).collect();
+        }
+    }
+    outputs
+}
+
+fn mode_name() -> Name {
+    Name::new("mode").expect("a name")
+}
+
 /// Profiles that are right.
 pub(crate) fn profile() -> impl Strategy<Value = Profile> {
     (0_usize..4).prop_flat_map(|switches| {
@@ -149,15 +197,21 @@ pub(crate) fn profile() -> impl Strategy<Value = Profile> {
             low,
             ..Calibration::new(Source::PadAxis { pad: 0, axis: 0 }, dead_band)
         });
-        (drawn_switches, outputs, prop::option::of(calibration)).prop_map(
-            |(switches, outputs, calibration)| Profile {
+        (
+            drawn_switches,
+            outputs,
+            prop::option::of(calibration),
+            flight(switches),
+        )
+            .prop_map(|(switches, outputs, calibration, (trims, modes))| Profile {
                 version: VERSION,
                 name: Name::new("drawn").expect("a name"),
                 inputs: calibration.into_iter().collect(),
                 switches,
-                outputs,
-            },
-        )
+                outputs: in_modes(outputs, &modes),
+                trims,
+                modes,
+            })
     })
 }
 

@@ -156,6 +156,63 @@ async fn open_line(browser: &Browser) {
         .await;
 }
 
+/// Where a point of the curve is on the screen, as `x y`.
+const SECOND_POINT: &str = "
+    const point = document.querySelectorAll('.mix-points .point')[1];
+    point.scrollIntoView({ block: 'center' });
+    const box = point.querySelector('.thumb').getBoundingClientRect();
+    return `${box.x + box.width / 2} ${box.y + box.height / 2}`;";
+
+#[tokio::test]
+async fn a_curve_is_dragged_and_a_trim_and_a_mode_are_added_and_kept() {
+    let Some(visit) = Visit::begin_alone(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    open_line(browser).await;
+    browser.click("#shape-1-0").await;
+    holds(browser, "line-1-0-curve", "-1 -1, -0.5 -0.5, 0 0, 0.5 0.5, 1 1").await;
+    let told = browser.text(SECOND_POINT).await;
+    let (x, y) = told.split_once(' ').unwrap();
+    let (x, y): (f64, f64) = (x.parse().unwrap(), y.parse().unwrap());
+    for (kind, right, down) in [
+        ("mousePressed", 0.0, 0.0),
+        ("mouseMoved", 9.0, 9.0),
+        ("mouseMoved", 18.0, 27.0),
+        ("mouseReleased", 18.0, 27.0),
+    ] {
+        let event = serde_json::json!({
+            "type": kind, "x": x + right, "y": y + down, "button": "left", "buttons": 1, "clickCount": 1,
+        });
+        browser.devtools("Input.dispatchMouseEvent", &event);
+    }
+    browser
+        .until("const [at, value] = document.getElementById('line-1-0-curve').value.split(', ')[1].split(' ').map(Number);
+                return at > -0.45 && at < -0.2 && value < -0.6")
+        .await;
+    browser
+        .until("document.querySelectorAll('.mix-points .point')[3].focus(); return true")
+        .await;
+    for _ in 0..2 {
+        crate::keyboard::press(browser, "ArrowUp");
+    }
+    browser
+        .until("return document.getElementById('line-1-0-curve').value.split(', ')[3] === '0.5 0.6'")
+        .await;
+    browser.shot("desktop-mix-points").await;
+    browser.click("#add-trim").await;
+    browser.click("#add-mode").await;
+    holds(browser, "trim-0-output", "turn").await;
+    write(browser, "mode-0-name", "indoors").await;
+    write(browser, "line-1-0-modes", "indoors").await;
+    browser.shot("desktop-mix-flight").await;
+    browser.click("#mix-save").await;
+    browser.says("mixes", "is kept by the robot").await;
+    browser.reload().await;
+    browser.click("#edit-mixes").await;
+    holds(browser, "mode-0-name", "indoors").await;
+}
+
 /// Whether the page has the browser ask before it is left.
 const IS_ASKED_FIRST: &str =
     "return String(!window.dispatchEvent(new Event('beforeunload', { cancelable: true })))";

@@ -134,6 +134,12 @@ impl Driver {
         self.pilot.profile()
     }
 
+    /// The mix that drives, with its trims as they were set since.
+    #[must_use]
+    pub fn trimmed(&self) -> Profile {
+        self.pilot.trimmed()
+    }
+
     /// What the inputs read.
     #[must_use]
     pub const fn readings(&self) -> &Readings {

@@ -92,6 +92,8 @@ mod tests {
             held,
             outputs: Vec::new(),
             switches: Vec::new(),
+            mode: None,
+            trims: Vec::new(),
             fired: Vec::new(),
         }
     }

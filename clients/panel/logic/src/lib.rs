@@ -104,8 +104,9 @@ pub use log_book::{LogBook, LogFilter};
 pub use map_palette::{MapPalette, Rgb};
 pub use matter::{MatterSight, matter_sight};
 pub use mixes::{
-    CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
-    MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
+    CalibrationRun, CurvePoints, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve,
+    LinePart, MixDraft, MixProblem, ModePart, OutputPart, SwitchPart, TrimPart, output_title,
+    profile_problem_text, robot_has,
 };
 pub use name_layout::{NameBox, lay_out_names};
 pub use names::name_problem_text;

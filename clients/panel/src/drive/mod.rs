@@ -107,6 +107,7 @@ fn Hands(seat: Seat) -> impl IntoView {
         <div class="hands">
             <p class="hint" id="gamepads">{pads}</p>
             <p class="hint" id="drive-state" role="status">{state}</p>
+            <p class="hint" id="flight" role="status">{move || seat.flight.get()}</p>
             <TiltButton seat />
             <Show when=move || seat.latency.get().is_some()>
                 <p class="hint" id="latency" title=words().drive.latency_long>

@@ -12,6 +12,7 @@ use super::gamepads::{self, Plugged};
 
 use crate::changes::set_if_changed;
 use crate::language::words;
+use crate::mixes::flight_text;
 use crate::news::now_ms;
 
 /// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
@@ -42,6 +43,8 @@ pub(crate) struct Seat {
     pub(super) passed_on: RwSignal<Vec<String>>,
     /// Why inputs do not drive, for people: gamepads that are pushed and say nothing more, or what is not at rest.
     pub(crate) why_not: RwSignal<Option<String>>,
+    /// The flight mode that holds, and the trims, for people.
+    pub(crate) flight: RwSignal<Option<String>>,
     pub(super) plugged: Plugged,
     meter: StoredValue<LatencyMeter>,
     /// When the newest input came.
@@ -63,6 +66,7 @@ impl Seat {
             is_lent: RwSignal::new(false),
             passed_on: RwSignal::new(Vec::new()),
             why_not: RwSignal::new(None),
+            flight: RwSignal::new(None),
             plugged: StoredValue::new(BTreeSet::new()),
             meter: StoredValue::new(LatencyMeter::default()),
             input_ms: StoredValue::new(0.0),
@@ -105,6 +109,10 @@ impl Seat {
         let silent = silent_text(words(), &steered.silent_pads);
         let why_not = silent.or_else(|| away_text(words(), &steered.mixed));
         set_if_changed(self.why_not, why_not);
+        let flight = self
+            .driver
+            .with_value(|driver| flight_text(&steered.mixed, &driver.profile().modes));
+        set_if_changed(self.flight, flight);
         steered
     }
 

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use mixer::{KeyCode, LineStages, Mixed, MixedOutput, Mixer, Name, Profile, Readings, Source};
-use panel_logic::{CalibrationRun, Field, Group, Learning, MixDraft};
+use panel_logic::{CalibrationRun, Driver, Field, Group, Learning, MixDraft};
 
 use crate::changes::set_if_changed;
 use crate::drive::Seat;
@@ -83,6 +83,8 @@ impl Bench {
         let kept = seat.kept.get_untracked();
         if kept.contains(&profile) {
             self.load(MixDraft::of_kept(profile));
+            let flown = seat.driver.with_value(Driver::trimmed);
+            self.change(|draft| draft.take_trims(&flown));
         } else if let Ok(copy) = MixDraft::copy_of(words(), &profile, &kept) {
             self.load(copy);
         }
@@ -140,6 +142,11 @@ impl Bench {
     pub(super) fn of_draft<T: Default>(self, ask: impl FnOnce(&MixDraft) -> T) -> T {
         self.draft
             .with(|draft| draft.as_ref().map(ask).unwrap_or_default())
+    }
+
+    /// What of the inputs the mix makes now.
+    pub(super) fn of_live<T>(self, ask: impl FnOnce(&Mixed) -> Option<T>) -> Option<T> {
+        self.live.with(|live| live.as_ref().and_then(ask))
     }
 
     /// What of a line the bars show.

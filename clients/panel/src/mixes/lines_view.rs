@@ -7,6 +7,7 @@ use super::bars::Bar;
 use super::curve_view::Curve;
 use super::field_view::FieldView;
 use super::group_parts::{GroupTools, Unfold};
+use super::points_view::Points;
 use super::{Bench, group_problem};
 
 use crate::language::words;
@@ -50,6 +51,7 @@ fn LineView(bench: Bench, output: usize, line: usize) -> impl IntoView {
                 <Stages bench output line />
                 <Bar label=words().mix.so_far value=total />
                 <Curve bench output line />
+                <Points bench output line />
                 <div class="mix-fields">
                     {LinePart::ALL
                         .map(|part| view! { <FieldView bench field=Field::Line(output, line, part) /> })

@@ -4,10 +4,12 @@ mod bars;
 mod bench;
 mod curve_view;
 mod field_view;
+mod flight_view;
 mod group_parts;
 mod inputs_view;
 mod lines_view;
 mod outputs_view;
+mod points_view;
 mod switches_view;
 mod tools;
 
@@ -20,12 +22,14 @@ use crate::access::{EDITS_MIXES, OnlyLooks};
 use crate::language::words;
 use crate::store::Store;
 use field_view::FieldView;
+use flight_view::{Modes, Trims};
 use inputs_view::Inputs;
 use outputs_view::Outputs;
 use switches_view::Switches;
 use tools::{SaveBar, Tools};
 
 pub(crate) use bench::Bench;
+pub(crate) use flight_view::flight_text;
 
 #[component]
 pub(crate) fn MixEditor(store: Store) -> impl IntoView {
@@ -46,6 +50,10 @@ pub(crate) fn MixEditor(store: Store) -> impl IntoView {
             <Outputs store />
             <h3>{words().mix.switches}</h3>
             <Switches bench />
+            <h3>{words().mix.trims}</h3>
+            <Trims bench />
+            <h3>{words().mix.modes}</h3>
+            <Modes bench />
             <h3>{words().mix.inputs}</h3>
             <Inputs bench />
             <SaveBar store />

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use mixer::OutputName;
-use panel_logic::{Field, Group, OutputPart, robot_has};
+use panel_logic::{Field, Group, OutputPart, output_title, robot_has};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
@@ -28,7 +28,8 @@ pub(super) fn Outputs(store: Store) -> impl IntoView {
             bench.rearrange(|draft| draft.add_output(name));
         }
     };
-    let option = |name: OutputName| view! { <option value=name.name()>{output_text(name)}</option> };
+    let option =
+        |name: OutputName| view! { <option value=name.name()>{output_title(words(), name)}</option> };
     view! {
         <ol class="outputs">
             <For each=move || 0..count.get() key=|output| *output let:output>
@@ -44,24 +45,6 @@ pub(super) fn Outputs(store: Store) -> impl IntoView {
                 </select>
             </label>
         </Show>
-    }
-}
-
-/// The name of an output as people write it.
-fn output_text(name: OutputName) -> &'static str {
-    let texts = &words().mix;
-    match name {
-        OutputName::Forward => texts.forward,
-        OutputName::Turn => texts.turn,
-        OutputName::LeftWheel => texts.left_wheel,
-        OutputName::RightWheel => texts.right_wheel,
-        OutputName::Suction => texts.suction,
-        OutputName::MainBrush => texts.main_brush,
-        OutputName::SideBrushes => texts.side_brushes,
-        OutputName::Start => texts.start,
-        OutputName::Stop => texts.stop,
-        OutputName::Spot => texts.spot,
-        OutputName::Dock => texts.dock,
     }
 }
 
@@ -84,7 +67,7 @@ fn OutputView(store: Store, output: usize) -> impl IntoView {
     view! {
         <li class="output" data-output=move || name.get().map(OutputName::name)>
             <Unfold open>
-                <span class="name">{move || name.get().map(output_text)}</span>
+                <span class="name">{move || name.get().map(|name| output_title(words(), name))}</span>
             </Unfold>
             <Bar label=words().mix.output value />
             <Show when=move || is_absent.get()>

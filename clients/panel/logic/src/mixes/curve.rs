@@ -125,6 +125,8 @@ mod tests {
             name: Name::new("mine").unwrap(),
             inputs: vec![Calibration::new(AXIS, 0.2)],
             switches: Vec::new(),
+            trims: Vec::new(),
+            modes: Vec::new(),
             outputs: vec![output],
         }
     }

@@ -3,13 +3,18 @@
 use std::collections::BTreeMap;
 
 use mixer::{
-    Calibration, Condition, Line, Name, NameError, Output, OutputName, Profile, ProfileError, Source, Switch,
-    VERSION,
+    Calibration, Condition, FlightMode, Line, Name, NameError, Output, OutputName, Profile, ProfileError,
+    Source, Switch, Trim, VERSION,
 };
 use rvac_api::RobotDescription;
 
+use super::flight_part::trimmable;
 use super::{CalibrationRun, Field, FieldError, Group, MixProblem};
 use crate::words::Words;
+
+/// Buttons of the cross of a pad with the standard mapping of the W3C.
+const CROSS_LEFT: u8 = 14;
+const CROSS_RIGHT: u8 = 15;
 
 /// A mix that is edited.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +63,8 @@ impl MixDraft {
             name: free_name(words.mix.new_mix, kept)?,
             inputs: Vec::new(),
             switches: Vec::new(),
+            trims: Vec::new(),
+            modes: Vec::new(),
             outputs: outputs.map(Output::new).into(),
         }))
     }
@@ -220,6 +227,61 @@ impl MixDraft {
         Ok(())
     }
 
+    /// Adds a trim, of the first output that can have one and has none.
+    pub fn add_trim(&mut self) {
+        let is_free = |output: &OutputName| self.profile.trims.iter().all(|trim| trim.output != *output);
+        let turn_first = [OutputName::Turn].into_iter().chain(trimmable());
+        if let Some(output) = turn_first.into_iter().find(is_free) {
+            let button = |button| Source::PadButton { pad: 0, button };
+            self.profile.trims.push(Trim {
+                output,
+                up: button(CROSS_LEFT),
+                down: button(CROSS_RIGHT),
+                step: 0.01,
+                value: 0.0,
+            });
+        }
+    }
+
+    /// Adds a flight mode on the first switch.
+    ///
+    /// # Errors
+    /// Never: the names are names.
+    pub fn add_mode(&mut self, words: &Words) -> Result<(), NameError> {
+        if self.profile.switches.is_empty() {
+            self.add_switch(words)?;
+        }
+        let taken = |name: &Name| self.profile.modes.iter().any(|mode| mode.name == *name);
+        let name = numbered(words.mix.new_mode, taken)?;
+        if let Some(switch) = self.profile.switches.first() {
+            self.profile.modes.push(FlightMode {
+                name,
+                when: switch.name.clone(),
+                fade_ms: 0,
+                trims: Vec::new(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Takes trims as they were set while driving, where the mix still has them.
+    pub fn take_trims(&mut self, flown: &Profile) {
+        for trim in &mut self.profile.trims {
+            let found = flown.trims.iter().find(|other| other.output == trim.output);
+            trim.value = found.map_or(trim.value, |other| other.value);
+        }
+        for mode in &mut self.profile.modes {
+            let found = flown.modes.iter().find(|other| other.name == mode.name);
+            for own in &mut mode.trims {
+                let values = found.into_iter().flat_map(|other| &other.trims);
+                let value = values
+                    .filter(|other| other.output == own.output)
+                    .map(|other| other.value);
+                own.value = value.last().unwrap_or(own.value);
+            }
+        }
+    }
+
     /// Adds a calibration, of the first axis that has none.
     pub fn add_input(&mut self) {
         let axes = (0..16).map(|axis| Source::PadAxis { pad: 0, axis });
@@ -255,11 +317,13 @@ impl MixDraft {
                 }
             }
             Group::Switch(switch) => remove(&mut self.profile.switches, switch),
+            Group::Trim(trim) => remove(&mut self.profile.trims, trim),
+            Group::Mode(mode) => remove(&mut self.profile.modes, mode),
             Group::Input(input) => remove(&mut self.profile.inputs, input),
         }
     }
 
-    /// Moves a line or a switch before the one before it: both may refer to what comes before them.
+    /// Moves a line, a switch or a flight mode before the one before it, which it may refer to, or yields to.
     pub fn move_up(&mut self, group: Group) {
         self.wrong.clear();
         match group {
@@ -269,7 +333,8 @@ impl MixDraft {
                 }
             }
             Group::Switch(switch) => move_up(&mut self.profile.switches, switch),
-            Group::Output(_) | Group::Input(_) => {}
+            Group::Mode(mode) => move_up(&mut self.profile.modes, mode),
+            Group::Output(_) | Group::Trim(_) | Group::Input(_) => {}
         }
     }
 }

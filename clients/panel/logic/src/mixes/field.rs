@@ -1,8 +1,9 @@
 //! One field of the form: its name, its input control, its place in the profile.
 
-use mixer::Profile;
+use mixer::{OutputName, Profile};
 
 use super::FieldError;
+use super::flight_part::{ModePart, TrimPart, trimmable};
 use super::parts::{InputPart, LinePart, OutputPart, name};
 use super::switch_part::{SwitchPart, conditions};
 use crate::words::Words;
@@ -18,6 +19,10 @@ pub enum Field {
     Line(usize, usize, LinePart),
     /// Of a switch.
     Switch(usize, SwitchPart),
+    /// Of a trim.
+    Trim(usize, TrimPart),
+    /// Of a flight mode.
+    Mode(usize, ModePart),
     /// Of a calibration.
     Input(usize, InputPart),
 }
@@ -31,6 +36,10 @@ pub enum Group {
     Line(usize, usize),
     /// A switch.
     Switch(usize),
+    /// A trim.
+    Trim(usize),
+    /// A flight mode.
+    Mode(usize),
     /// A calibration.
     Input(usize),
 }
@@ -56,9 +65,10 @@ impl Field {
     pub const fn label(self, words: &Words) -> &'static str {
         let texts = &words.mix;
         match self {
-            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => {
-                texts.name
-            }
+            Self::MixName
+            | Self::Line(_, _, LinePart::Name)
+            | Self::Switch(_, SwitchPart::Name)
+            | Self::Mode(_, ModePart::Name) => texts.name,
             Self::Line(_, _, LinePart::Input)
             | Self::Switch(_, SwitchPart::Input)
             | Self::Input(_, InputPart::Input) => texts.input,
@@ -68,7 +78,8 @@ impl Field {
             Self::Line(_, _, LinePart::Expo) => texts.expo,
             Self::Line(_, _, LinePart::Curve) => texts.curve,
             Self::Line(_, _, LinePart::Mix) => texts.joins_by,
-            Self::Line(_, _, LinePart::When) => texts.only_while,
+            Self::Line(_, _, LinePart::When) | Self::Mode(_, ModePart::When) => texts.only_while,
+            Self::Line(_, _, LinePart::Modes) => texts.in_modes,
             Self::Line(_, _, LinePart::DelayMs) => texts.delay,
             Self::Line(_, _, LinePart::SlowUp) => texts.slow_up,
             Self::Line(_, _, LinePart::SlowDown) => texts.slow_down,
@@ -82,6 +93,13 @@ impl Field {
             Self::Switch(_, SwitchPart::Others) => texts.others,
             Self::Switch(_, SwitchPart::HoldMs) => texts.how_long,
             Self::Input(_, InputPart::DeadBand) => texts.dead_band,
+            Self::Trim(_, TrimPart::Output) => texts.output,
+            Self::Trim(_, TrimPart::Up) => texts.trim_up,
+            Self::Trim(_, TrimPart::Down) => texts.trim_down,
+            Self::Trim(_, TrimPart::Step) => texts.trim_step,
+            Self::Trim(_, TrimPart::Value) => texts.trim_value,
+            Self::Mode(_, ModePart::FadeMs) => texts.fade,
+            Self::Mode(_, ModePart::Trims) => texts.own_trims,
         }
     }
 
@@ -94,6 +112,8 @@ impl Field {
             Self::Output(output, which) => format!("output-{output}-{}", part(&which)),
             Self::Line(output, line, which) => format!("line-{output}-{line}-{}", part(&which)),
             Self::Switch(switch, which) => format!("switch-{switch}-{}", part(&which)),
+            Self::Trim(trim, which) => format!("trim-{trim}-{}", part(&which)),
+            Self::Mode(mode, which) => format!("mode-{mode}-{}", part(&which)),
             Self::Input(input, which) => format!("input-{input}-{}", part(&which)),
         }
     }
@@ -106,7 +126,13 @@ impl Field {
         match self {
             Self::Line(_, _, LinePart::Input)
             | Self::Switch(_, SwitchPart::Input)
+            | Self::Trim(_, TrimPart::Up | TrimPart::Down)
             | Self::Input(_, InputPart::Input) => FieldKind::Source,
+            Self::Trim(_, TrimPart::Output) => {
+                let names = trimmable().map(|output| choice(output.name(), output_title(words, output)));
+                FieldKind::Choice(names.collect())
+            }
+            Self::Mode(_, ModePart::When) => FieldKind::Choice(switch_choices(words, profile)),
             Self::Line(_, _, LinePart::Invert) | Self::Output(_, OutputPart::Reverse) => FieldKind::Check,
             Self::Line(_, _, LinePart::Mix) => FieldKind::Choice(vec![
                 choice("add", texts.adding),
@@ -114,8 +140,7 @@ impl Field {
                 choice("replace", texts.replacing),
             ]),
             Self::Line(_, _, LinePart::When) => {
-                let names = profile.switches.iter().map(|switch| switch.name.to_string());
-                let names = names.map(|name| (name.clone(), texts.switch.fill([&name])));
+                let names = switch_choices(words, profile).into_iter();
                 FieldKind::Choice([choice("", texts.always)].into_iter().chain(names).collect())
             }
             Self::Switch(place, SwitchPart::Kind) => {
@@ -126,7 +151,8 @@ impl Field {
                 FieldKind::Choice(offered.map(|(value, words)| choice(value, words)).collect())
             }
             Self::MixName
-            | Self::Line(_, _, LinePart::Name | LinePart::Curve)
+            | Self::Line(_, _, LinePart::Name | LinePart::Curve | LinePart::Modes)
+            | Self::Mode(_, ModePart::Name | ModePart::Trims)
             | Self::Switch(_, SwitchPart::Name | SwitchPart::Others) => FieldKind::Text,
             _ => FieldKind::Number,
         }
@@ -140,6 +166,8 @@ impl Field {
             Self::Line(output, line, part) => (Group::Line(output, line), line_word(part)),
             Self::Switch(switch, part) => (Group::Switch(switch), switch_word(part)),
             Self::Input(input, part) => (Group::Input(input), input_word(part)),
+            Self::Trim(trim, part) => (Group::Trim(trim), trim_word(part)),
+            Self::Mode(mode, part) => (Group::Mode(mode), mode_word(part)),
             Self::MixName => return String::new(),
         };
         word.map(|word| format!("{}, {word}", group.place(profile)))
@@ -159,6 +187,8 @@ impl Field {
                 .map(|line| part.text(line)),
             Self::Switch(switch, part) => profile.switches.get(switch).map(|switch| part.text(switch)),
             Self::Input(input, part) => profile.inputs.get(input).map(|input| part.text(input)),
+            Self::Trim(trim, part) => profile.trims.get(trim).map(|trim| part.text(trim)),
+            Self::Mode(mode, part) => profile.modes.get(mode).map(|mode| part.text(mode)),
         }
         .unwrap_or_default()
     }
@@ -185,6 +215,16 @@ impl Field {
             Self::Input(input, part) => {
                 if let Some(input) = profile.inputs.get_mut(input) {
                     part.set(input, text)?;
+                }
+            }
+            Self::Trim(trim, part) => {
+                if let Some(trim) = profile.trims.get_mut(trim) {
+                    part.set(trim, text)?;
+                }
+            }
+            Self::Mode(mode, part) => {
+                if let Some(mode) = profile.modes.get_mut(mode) {
+                    part.set(mode, text)?;
                 }
             }
         }
@@ -221,6 +261,8 @@ impl Group {
             Self::Line(output, line) => Some(profile.line_place(output, line)),
             Self::Switch(switch) => profile.switches.get(switch).map(mixer::Switch::place),
             Self::Input(input) => profile.inputs.get(input).map(mixer::Calibration::place),
+            Self::Trim(trim) => profile.trims.get(trim).map(mixer::Trim::place),
+            Self::Mode(mode) => profile.modes.get(mode).map(mixer::FlightMode::place),
         }
         .unwrap_or_default()
     }
@@ -245,7 +287,12 @@ const fn line_word(part: LinePart) -> Option<&'static str> {
         LinePart::DelayMs => Some("delay-ms"),
         LinePart::SlowUp => Some("slow-up-per-s"),
         LinePart::SlowDown => Some("slow-down-per-s"),
-        LinePart::Name | LinePart::Input | LinePart::Invert | LinePart::Mix | LinePart::When => None,
+        LinePart::Name
+        | LinePart::Input
+        | LinePart::Invert
+        | LinePart::Mix
+        | LinePart::When
+        | LinePart::Modes => None,
     }
 }
 
@@ -254,6 +301,48 @@ const fn switch_word(part: SwitchPart) -> Option<&'static str> {
         SwitchPart::Level => Some("level"),
         SwitchPart::HoldMs => Some("hold-ms"),
         SwitchPart::Name | SwitchPart::Kind | SwitchPart::Input | SwitchPart::Others => None,
+    }
+}
+
+const fn trim_word(part: TrimPart) -> Option<&'static str> {
+    match part {
+        TrimPart::Step => Some("step"),
+        TrimPart::Value => Some("value"),
+        TrimPart::Output | TrimPart::Up | TrimPart::Down => None,
+    }
+}
+
+const fn mode_word(part: ModePart) -> Option<&'static str> {
+    match part {
+        ModePart::FadeMs => Some("fade-ms"),
+        ModePart::Name | ModePart::When | ModePart::Trims => None,
+    }
+}
+
+/// The switches of the mix: the name, and what people read.
+fn switch_choices(words: &Words, profile: &Profile) -> Vec<(String, String)> {
+    let names = profile.switches.iter().map(|switch| switch.name.to_string());
+    names
+        .map(|name| (name.clone(), words.mix.switch.fill([&name])))
+        .collect()
+}
+
+/// The name of an output as people write it.
+#[must_use]
+pub const fn output_title(words: &Words, name: OutputName) -> &'static str {
+    let texts = &words.mix;
+    match name {
+        OutputName::Forward => texts.forward,
+        OutputName::Turn => texts.turn,
+        OutputName::LeftWheel => texts.left_wheel,
+        OutputName::RightWheel => texts.right_wheel,
+        OutputName::Suction => texts.suction,
+        OutputName::MainBrush => texts.main_brush,
+        OutputName::SideBrushes => texts.side_brushes,
+        OutputName::Start => texts.start,
+        OutputName::Stop => texts.stop,
+        OutputName::Spot => texts.spot,
+        OutputName::Dock => texts.dock,
     }
 }
 

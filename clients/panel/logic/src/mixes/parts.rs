@@ -26,6 +26,8 @@ pub enum LinePart {
     Mix,
     /// Its switch.
     When,
+    /// The flight modes in which it counts.
+    Modes,
     /// Delay.
     DelayMs,
     /// Rise a second.
@@ -66,7 +68,7 @@ pub enum InputPart {
 
 impl LinePart {
     /// All, in the order of the form.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Name,
         Self::Input,
         Self::Invert,
@@ -76,6 +78,7 @@ impl LinePart {
         Self::Curve,
         Self::Mix,
         Self::When,
+        Self::Modes,
         Self::DelayMs,
         Self::SlowUp,
         Self::SlowDown,
@@ -92,6 +95,7 @@ impl LinePart {
             Self::Curve => points_text(&line.curve),
             Self::Mix => mix_text(line.mix).to_owned(),
             Self::When => line.when.as_ref().map(Name::to_string).unwrap_or_default(),
+            Self::Modes => names_text(&line.modes.iter().collect::<Vec<_>>()),
             Self::DelayMs => line.delay_ms.to_string(),
             Self::SlowUp => line.slow_up_per_s.to_string(),
             Self::SlowDown => line.slow_down_per_s.to_string(),
@@ -111,6 +115,7 @@ impl LinePart {
             Self::When => {
                 line.when = if text.is_empty() { None } else { Some(name(text)?) };
             }
+            Self::Modes => line.modes = names(text)?,
             Self::DelayMs => line.delay_ms = milliseconds(text)?,
             Self::SlowUp => line.slow_up_per_s = number(text),
             Self::SlowDown => line.slow_down_per_s = number(text),
@@ -172,6 +177,17 @@ impl InputPart {
 
 pub(super) fn name(text: &str) -> Result<Name, FieldError> {
     Name::new(text.trim()).map_err(FieldError::Name)
+}
+
+/// Names with commas between.
+pub(super) fn names(text: &str) -> Result<Vec<Name>, FieldError> {
+    let texts = text.split(',').map(str::trim).filter(|text| !text.is_empty());
+    texts.map(name).collect()
+}
+
+pub(super) fn names_text(names: &[&Name]) -> String {
+    let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+    names.join(", ")
 }
 
 /// What is no number becomes one that the mixer refuses, with its own sentence.

@@ -15,6 +15,8 @@ pub enum FieldError {
     Milliseconds(String),
     /// Part of it is no point of a curve.
     Point(String),
+    /// Part of it is no value of a trim.
+    Trim(String),
     /// It does not name one switch.
     OneSwitch(String),
     /// It does not name two switches.
@@ -51,6 +53,7 @@ impl FieldError {
             Self::Source(error) => source_problem_text(words, error),
             Self::Milliseconds(text) => texts.no_time.fill([text]),
             Self::Point(text) => texts.no_point.fill([text]),
+            Self::Trim(text) => texts.no_trim_value.fill([text]),
             Self::OneSwitch(text) => texts.one_switch.fill([text]),
             Self::TwoSwitches(text) => texts.two_switches.fill([text]),
         }
@@ -101,6 +104,9 @@ pub fn profile_problem_text(words: &Words, error: &ProfileError) -> String {
         ProfileError::TooMany { place, found, most } => texts.too_many.fill([place, found, most]),
         ProfileError::Twice { place } => texts.twice.fill([place]),
         ProfileError::NoSwitch { place, name } => texts.no_switch.fill([place, name]),
+        ProfileError::NoMode { place, name } => texts.no_mode.fill([place, name]),
+        ProfileError::NoTrim { place, output } => texts.no_trim.fill([place, output]),
+        ProfileError::NotTrimmed { place } => texts.not_trimmed.fill([place]),
         ProfileError::JoinsNone { place } => texts.joins_none.fill([place]),
     }
 }

@@ -3,7 +3,7 @@
 use mixer::{Condition, Name, Source, Switch};
 
 use super::FieldError;
-use super::parts::{milliseconds, name, number};
+use super::parts::{milliseconds, name, names, names_text, number};
 use crate::words::Words;
 
 /// A setting of a switch.
@@ -118,8 +118,7 @@ fn of_kind(kind: &str, before: &Condition) -> Condition {
 
 /// Puts the switches of this text into a condition.
 fn join(condition: &mut Condition, text: &str) -> Result<(), FieldError> {
-    let texts = text.split(',').map(str::trim).filter(|text| !text.is_empty());
-    let names = texts.map(name).collect::<Result<Vec<Name>, FieldError>>()?;
+    let names = names(text)?;
     match (condition, names.as_slice()) {
         (Condition::All(all) | Condition::Any(all), _) => *all = names,
         (Condition::Not(one) | Condition::Toggle(one) | Condition::Edge { of: one, .. }, [only]) => {
@@ -134,9 +133,4 @@ fn join(condition: &mut Condition, text: &str) -> Result<(), FieldError> {
         _ => return Err(FieldError::OneSwitch(text.to_owned())),
     }
     Ok(())
-}
-
-fn names_text(names: &[&Name]) -> String {
-    let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
-    names.join(", ")
 }

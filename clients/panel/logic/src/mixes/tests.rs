@@ -1,7 +1,8 @@
 //! The form as a person uses it.
 
 use super::{
-    CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, OutputPart, SwitchPart, robot_has,
+    CalibrationRun, Field, Group, InputPart, Learning, LinePart, MixDraft, ModePart, OutputPart, SwitchPart,
+    TrimPart, robot_has,
 };
 use crate::words::{Language, Words};
 use mixer::{Name, OutputName, PadReading, ProfileError, Readings, Source, standard_profile};
@@ -29,6 +30,12 @@ fn fields(draft: &MixDraft) -> Vec<Field> {
                 .map(|part| Field::Switch(number, *part)),
         );
     }
+    for number in 0..profile.trims.len() {
+        all.extend(TrimPart::ALL.map(|part| Field::Trim(number, part)));
+    }
+    for number in 0..profile.modes.len() {
+        all.extend(ModePart::ALL.map(|part| Field::Mode(number, part)));
+    }
     for number in 0..profile.inputs.len() {
         all.extend(InputPart::ALL.map(|part| Field::Input(number, part)));
     }
@@ -43,6 +50,69 @@ fn every_field_gives_back_what_it_shows() {
     }
     assert!(!draft.is_changed(), "{:?}", draft.problem());
     assert!(!draft.is_unsaved());
+}
+
+/// The standard mix with a trim of the turn, and a flight mode on the switch that it has.
+fn with_flight() -> MixDraft {
+    let mut draft = draft();
+    draft.add_trim();
+    draft.add_mode(ENGLISH).expect("a name");
+    draft.set(Field::Mode(0, ModePart::Trims), "turn 0.05");
+    draft.set(Field::Line(0, 0, LinePart::Modes), "mode");
+    assert_eq!(draft.problem(), None);
+    draft
+}
+
+#[test]
+fn trims_and_modes_are_added_and_give_back_what_they_show() {
+    let mut draft = with_flight();
+    let before = draft.profile().clone();
+    for field in fields(&draft) {
+        draft.set(field, &field.text(draft.profile()));
+    }
+    assert_eq!(*draft.profile(), before);
+    assert_eq!(before.trims[0].output, OutputName::Turn);
+    assert_eq!(before.modes[0].when, before.switches[0].name);
+    draft.add_trim();
+    assert_eq!(
+        draft.profile().trims[1].output,
+        OutputName::Forward,
+        "the first that has none"
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_trim_or_a_mode_is_shown_beside_its_field() {
+    for (field, text, words) in [
+        (Field::Trim(0, TrimPart::Step), "1", "from 0.001 to 0.1"),
+        (Field::Trim(0, TrimPart::Value), "-1", "from -0.25 to 0.25"),
+        (Field::Trim(0, TrimPart::Up), "cross", "is no input"),
+        (Field::Mode(0, ModePart::FadeMs), "9000", "from 0 to 5000"),
+        (Field::Mode(0, ModePart::Trims), "suction 0.1", "is no trim"),
+    ] {
+        let mut draft = with_flight();
+        draft.set(field, text);
+        let told = draft.problem_of(field).expect("it is wrong");
+        let sentence = told.text(ENGLISH);
+        assert!(
+            sentence.replace('\u{a0}', " ").contains(words),
+            "{field:?} = {text}: {sentence}"
+        );
+        assert_ne!(told.text(Language::Estonian.words()), sentence, "{field:?}");
+    }
+}
+
+#[test]
+fn trims_that_were_set_while_driving_are_taken_over_and_kept_by_saving() {
+    let mut draft = MixDraft::of_kept(with_flight().profile().clone());
+    let mut flown = draft.profile().clone();
+    flown.trims[0].value = 0.03;
+    flown.modes[0].trims[0].value = -0.02;
+    draft.take_trims(&flown);
+    assert_eq!(*draft.profile(), flown);
+    assert!(draft.is_changed(), "it can be saved");
+    draft.take_trims(&standard_profile());
+    assert_eq!(*draft.profile(), flown, "another mix has none of them");
 }
 
 #[test]

@@ -8,6 +8,8 @@ screen! {
         editor: "Editor of control mixes", "Juhtskeemide muutmine";
         outputs: "Outputs", "Väljundid";
         switches: "Switches", "Lülitid";
+        trims: "Trims", "Trimmid";
+        modes: "Flight modes", "Lennurežiimid";
         inputs: "Calibrated inputs", "Kalibreeritud sisendid";
         failsafe_state: "The mix waits until every input is at rest: outputs give their failsafe.",
             "Skeem ootab, kuni kõik sisendid on puhkeasendis: väljundid annavad ohutu väärtuse.";
@@ -29,6 +31,30 @@ screen! {
         remove_switch: "Remove this switch", "Eemalda lüliti";
         on_now: "On now", "Praegu sees";
         off_now: "Off now", "Praegu väljas";
+        add_trim: "Add a trim", "Lisa trimm";
+        remove_trim: "Remove this trim", "Eemalda trimm";
+        trim_now[2]: "{0}: {1} now", "{0}: praegu {1}";
+        trims_hint: "A trim corrects what pulls to one side. It counts only while something is held, and what is set while driving is taken over here: save to keep it.",
+            "Trimm parandab kõrvalekalde. See kehtib ainult siis, kui midagi hoitakse; sõites seatu võetakse siia üle, säilitamiseks salvesta.";
+        add_mode: "Add a flight mode", "Lisa lennurežiim";
+        remove_mode: "Remove this flight mode", "Eemalda lennurežiim";
+        modes_hint: "The first mode whose switch is on holds: it has lines and trims of its own.",
+            "Kehtib esimene režiim, mille lüliti on sees: sellel võivad olla oma read ja trimmid.";
+        new_mode: "mode", "režiim";
+        trim_up: "Button for more", "Suurendamise nupp";
+        trim_down: "Button for less", "Vähendamise nupp";
+        trim_step: "Step", "Samm";
+        trim_value: "Value", "Väärtus";
+        fade: "Goes over in, ms", "Ülemineku aeg, ms";
+        own_trims: "Trims of its own", "Oma trimmid";
+        in_modes: "Only in modes", "Ainult režiimides";
+        shape_curve: "Shape it by points", "Kujunda punktidega";
+        add_point: "Add a point", "Lisa punkt";
+        remove_point: "Remove this point", "Eemalda punkt";
+        straighten: "Make it straight", "Tee sirgeks";
+        point_of[2]: "Point {0} of {1}", "Punkt {0} / {1}";
+        point_is[2]: "{0} becomes {1}", "{0} muutub väärtuseks {1}";
+        points_graph: "Points of the curve: drag them, or use the arrow keys", "Kõvera punktid: lohista neid või kasuta nooleklahve";
         add_input: "Add an input", "Lisa sisend";
         read_as_is: "Read this input as it is", "Loe sisendit muutmata";
         take_ends: "Take these ends", "Võta need otsad";
@@ -126,6 +152,13 @@ screen! {
             "{0}: anna 2 kuni {1} punkti, mille esimesed arvud kasvavad -1-st 1-ni, või mitte ühtegi";
         too_many[3]: "{0}: {1} entries, {2} at most: remove some", "{0}: {1} kirjet, lubatud on kuni {2}: eemalda mõni";
         twice[1]: "{0} is there twice: remove one", "{0} on kaks korda: eemalda üks";
+        no_trim_value[1]: "`{0}` is no trim: write an output and a number, and a comma before the next, like turn 0.05, forward 0",
+            "„{0}“ ei ole trimm: kirjuta väljund ja arv ning järgmise ette koma, nagu turn 0.05, forward 0";
+        no_mode[2]: "{0}: no mode has the name `{1}`: add one, or take another",
+            "{0}: ühelgi režiimil ei ole nime „{1}“: lisa see või võta teine";
+        no_trim[2]: "{0}: `{1}` has no trim: add one, or remove this value", "{0}: väljundil „{1}“ ei ole trimmi: lisa see või eemalda väärtus";
+        not_trimmed[1]: "{0}: only forward, turn, left-wheel and right-wheel can be trimmed: remove it",
+            "{0}: trimmida saab ainult väljundeid forward, turn, left-wheel ja right-wheel: eemalda see";
         no_switch[2]: "{0}: no switch before it has the name `{1}`: add one, or take another",
             "{0}: ühelgi eelneval lülitil ei ole nime „{1}“: lisa see või võta teine";
         joins_none[1]: "{0}: name at least one switch", "{0}: nimeta vähemalt üks lüliti";
