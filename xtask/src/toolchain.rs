@@ -49,7 +49,7 @@ pub(crate) const WEB: Target = Target {
     // and it ends the program either way: without them 30 kB less, and with the library's smaller code 16 more.
     flags: Some(Flags {
         variable: "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS",
-        always: "--cfg erase_components",
+        always: "--cfg erase_components -Clink-arg=--emit-relocs",
         with_library: "-Zunstable-options -Cpanic=immediate-abort",
     }),
     remedy: "rustup target add wasm32-unknown-unknown",

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::Currency;
 
-use crate::access::{Access, NewcomerView, PairView};
+use crate::access::{Access, NewcomerView};
 use crate::actions::Actions;
 use crate::bottom_sheet::SheetHandle;
 use crate::focus::keep_focus;
@@ -23,13 +23,19 @@ pub(crate) fn App() -> impl IntoView {
     store.map.with_value(|map| map.set_theme(theme.get_untracked()));
     store.connect();
     keep_focus();
+    // What comes with the first picture is not held up by what comes after it.
+    Effect::new(move |_| {
+        if store.status.with(Option::is_some) {
+            store.late.load();
+        }
+    });
     let is_stranger = Memo::new(move |_| store.entrance.access.with(|access| *access == Access::Stranger));
     let is_current = Memo::new(move |_| store.currency.get() == Currency::Current);
     view! {
         <a class="skip" href="#actions">{words().frame.skip}</a>
         <Header store theme />
         <Show when=move || is_stranger.get()>
-            <PairView store />
+            {store.late.view(move |views| (views.pair)(store))}
         </Show>
         <main class="page" hidden=move || is_stranger.get() data-current=move || if is_current.get() { "yes" } else { "no" }>
             <MapView store />

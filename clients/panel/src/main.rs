@@ -1,5 +1,5 @@
 //! The web page that shows and drives the robot. What can be decided without a browser is in `panel-logic`.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod about_view;
 mod access;
@@ -8,6 +8,7 @@ mod app;
 mod bottom_sheet;
 mod calibration_view;
 mod changes;
+mod device_sheet;
 mod device_view;
 mod dock_view;
 mod drive;
@@ -23,6 +24,7 @@ mod http;
 mod icons;
 mod job_settings_view;
 mod language;
+mod late;
 mod learnt_view;
 mod link;
 mod log_view;

@@ -13,8 +13,6 @@ use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::news::SilenceView;
 use crate::store::Store;
-use crate::summary_view::SummaryView;
-use crate::whole_home_view::WholeHomeView;
 
 /// A robot that has driven less stands still yet, metres.
 const DRIVEN_M: f64 = 0.05;
@@ -67,8 +65,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
             <Inhibits store />
             <StandstillView store />
             <Lately store />
-            <SummaryView store />
-            <WholeHomeView store />
+            {store.late.when_there(move |views| (views.summary)(store))}
             <Show when=move || rests.get()>
                 <PatternChoice store />
             </Show>

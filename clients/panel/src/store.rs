@@ -15,6 +15,7 @@ use crate::calibration_view::CalibrationDesk;
 use crate::drive::Seat;
 use crate::floor_files::FloorDesk;
 use crate::history::HistoryDesk;
+use crate::late::Late;
 use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
@@ -115,6 +116,8 @@ pub(crate) struct Store {
     pub(crate) daemon_began_s: StoredValue<Option<f64>>,
     /// What was removed last and can be taken back.
     pub(crate) undo: RwSignal<Option<Undo>>,
+    /// Views that are loaded after the first picture.
+    pub(crate) late: Late,
     /// Strategy by which a job of the whole home is started; empty as long as the robot chooses.
     pub(crate) strategy: RwSignal<String>,
     /// Length of the planned path, metres.
@@ -170,6 +173,7 @@ impl Store {
             note: RwSignal::new(None),
             daemon_began_s: StoredValue::new(None),
             undo: RwSignal::new(None),
+            late: Late::new(),
             strategy: RwSignal::new(String::new()),
             route_m: RwSignal::new(0.0),
             refusal: RwSignal::new(None),

@@ -3,23 +3,11 @@
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
-use crate::about_view::AboutView;
-use crate::access::{Access, AdministratorView};
-use crate::calibration_view::CalibrationSection;
-use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::focus::focus_on;
-use crate::history::HistorySheet;
-use crate::home_view::{HomePart, HomeSheet};
+use crate::home_view::HomePart;
 use crate::language::words;
-use crate::learnt_view::LearntSection;
-use crate::log_view::LogView;
-use crate::notify::NotifySection;
-use crate::parts_view::PartsView;
-use crate::schedules::ScheduleSheet;
 use crate::store::Store;
-use crate::system_view::SystemSection;
-use crate::why_view::WhyView;
 
 const TABS: [&str; 7] = ["drive", "home", "schedules", "history", "why", "device", "log"];
 
@@ -59,6 +47,7 @@ fn keep_tab(open: usize) {
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
     let open = RwSignal::new(kept_tab());
     let home_part = RwSignal::new(HomePart::Rooms);
+    let late = store.late;
     Effect::new(move |_| keep_tab(open.get()));
     let on_key = move |event: KeyboardEvent| {
         let now = open.get_untracked();
@@ -98,39 +87,23 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <DriveSheet store />
             </div>
             <div role="tabpanel" id="sheet-home" aria-labelledby="tab-home" hidden=move || open.get() != 1>
-                <Show when=move || open.get() == 1><HomeSheet store open=home_part /></Show>
+                <Show when=move || open.get() == 1>{late.view(move |views| (views.home)(store, home_part))}</Show>
             </div>
             <div role="tabpanel" id="sheet-schedules" aria-labelledby="tab-schedules" hidden=move || open.get() != 2>
-                <Show when=move || open.get() == 2><ScheduleSheet store /></Show>
+                <Show when=move || open.get() == 2>{late.view(move |views| (views.schedules)(store))}</Show>
             </div>
             <div role="tabpanel" id="sheet-history" aria-labelledby="tab-history" hidden=move || open.get() != 3>
-                <Show when=move || open.get() == 3><HistorySheet store /></Show>
+                <Show when=move || open.get() == 3>{late.view(move |views| (views.history)(store))}</Show>
             </div>
             <div role="tabpanel" id="sheet-why" aria-labelledby="tab-why" hidden=move || open.get() != 4>
-                <Show when=move || open.get() == 4><WhyView store /></Show>
+                <Show when=move || open.get() == 4>{late.view(move |views| (views.why)(store))}</Show>
             </div>
             <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 5>
-                <Show when=move || open.get() == 5><DeviceSheet store /></Show>
+                <Show when=move || open.get() == 5>{late.view(move |views| (views.device)(store))}</Show>
             </div>
             <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 6>
-                <Show when=move || open.get() == 6><LogView store /></Show>
+                <Show when=move || open.get() == 6>{late.view(move |views| (views.log)(store))}</Show>
             </div>
         </section>
-    }
-}
-
-/// What the robot and its computer measure, keep and are.
-#[component]
-fn DeviceSheet(store: Store) -> impl IntoView {
-    let manages = Memo::new(move |_| store.entrance.access.with(Access::manages));
-    view! {
-        <DeviceView store />
-        <PartsView store />
-        <LearntSection store />
-        <CalibrationSection store />
-        <Show when=move || manages.get()><AdministratorView store /></Show>
-        <NotifySection store />
-        <SystemSection store />
-        <AboutView store />
     }
 }

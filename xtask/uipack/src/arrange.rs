@@ -9,7 +9,9 @@ use std::ops::Range;
 use anyhow::{Context, Result, anyhow};
 use wasm_encoder::reencode::{Error, Reencode, utils};
 use wasm_encoder::{CodeSection, FunctionSection, Module};
-use wasmparser::{CodeSectionReader, FunctionBody, FunctionSectionReader, Parser, Payload, TypeRef};
+use wasmparser::{
+    CodeSectionReader, CustomSectionReader, FunctionBody, FunctionSectionReader, Parser, Payload, TypeRef,
+};
 
 /// Bytes that are compared at a time: a short instruction or two.
 const SHINGLE_BYTES: usize = 4;
@@ -20,9 +22,9 @@ const MARKS: usize = 32;
 /// of them in common as of their shingles (MinHash, Broder 1997).
 type Signature = [u32; MARKS];
 
-/// The same module with its own functions in another order.
+/// The same module with its own functions in another order, and with nothing but what a browser runs.
 pub(crate) fn alike_together(module: &[u8]) -> Result<Vec<u8>> {
-    let read = read(module).context("the module that wasm-bindgen made cannot be read")?;
+    let read = read(module).context("the module cannot be read")?;
     let bodies: Vec<&[u8]> = read.bodies.iter().map(|body| &module[body.clone()]).collect();
     let order = chain(&bodies);
     let mut places = vec![0; order.len()];
@@ -125,6 +127,15 @@ impl Reencode for Moved {
         let own = function.checked_sub(self.imported);
         let place = own.and_then(|own| self.places.get(usize::try_from(own).ok()?));
         Ok(place.map_or(function, |place| self.imported + place))
+    }
+
+    /// Names of functions and where each number stands are for linkers and debuggers: half of a module that a linker wrote.
+    fn parse_custom_section(
+        &mut self,
+        _module: &mut Module,
+        _section: CustomSectionReader<'_>,
+    ) -> Result<(), Error> {
+        Ok(())
     }
 
     fn parse_function_section(

@@ -4,7 +4,7 @@ use std::fs;
 use std::num::NonZeroU64;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use brotli::enc::BrotliEncoderParams;
 use zopfli::{Format, Options};
 
@@ -25,10 +25,22 @@ struct File {
 impl Bundle {
     /// Adds a file and returns the name it got: `panel.css` becomes `panel-0123456789abcdef.css`.
     pub(crate) fn add(&mut self, name: &str, content: Vec<u8>) -> String {
-        let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "bin"));
-        let named = format!("{stem}-{:016x}.{ending}", fnv1a_64(&content));
+        let named = hashed(name, fnv1a_64(&content));
         self.push(named.clone(), content);
         named
+    }
+
+    /// Adds two scripts that import each other as `./panel.js`, and returns the names they got. Either changes with the content
+    /// of both.
+    pub(crate) fn add_bound(&mut self, scripts: [(&str, String); 2]) -> Result<[String; 2]> {
+        let [(first, first_text), (second, second_text)] = scripts;
+        let hash = fnv1a_64(format!("{first_text}{second_text}").as_bytes());
+        let [first_name, second_name] = [first, second].map(|name| hashed(name, hash));
+        let first_text = renamed(&first_text, second, &second_name).context(first.to_owned())?;
+        let second_text = renamed(&second_text, first, &first_name).context(second.to_owned())?;
+        self.push(first_name.clone(), first_text.into_bytes());
+        self.push(second_name.clone(), second_text.into_bytes());
+        Ok([first_name, second_name])
     }
 
     /// Adds a file that keeps its name.
@@ -70,6 +82,20 @@ impl Bundle {
             brotli,
         });
     }
+}
+
+fn hashed(name: &str, hash: u64) -> String {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "bin"));
+    format!("{stem}-{hash:016x}.{ending}")
+}
+
+/// The script with the new name of what it imports.
+fn renamed(text: &str, import: &str, name: &str) -> Result<String> {
+    let statement = |name: &str| format!("from \"./{name}\"");
+    if !text.contains(&statement(import)) {
+        bail!("the script has no import {}", statement(import));
+    }
+    Ok(text.replace(&statement(import), &statement(name)))
 }
 
 /// Rounds of the search for short codes; more than this save a thousandth.
@@ -123,5 +149,35 @@ mod tests {
         assert_ne!(first, bundle.add("panel.css", b"b".to_vec()));
         assert_eq!(first, bundle.add("panel.css", b"a".to_vec()));
         assert!(first.starts_with("panel-") && first.ends_with(".css"));
+    }
+
+    #[test]
+    fn scripts_that_import_each_other_find_each_other() {
+        let mut bundle = Bundle::default();
+        let scripts = |body: &str| {
+            let first = "import * as late from \"./late.js\"; f({ \"./late.js\": late })".to_owned();
+            [
+                ("panel.js", first),
+                ("late.js", format!("import x from \"./panel.js\"; {body}")),
+            ]
+        };
+        let [name, late] = bundle.add_bound(scripts("a")).unwrap();
+        let texts: Vec<String> = bundle
+            .files
+            .iter()
+            .map(|file| String::from_utf8_lossy(&file.plain).into_owned())
+            .collect();
+        // The module inside asks for it by the old name.
+        assert_eq!(
+            texts[0],
+            format!("import * as late from \"./{late}\"; f({{ \"./late.js\": late }})")
+        );
+        assert!(texts[1].contains(&format!("\"./{name}\"")));
+        assert_ne!(name, bundle.add_bound(scripts("b")).unwrap()[0]);
+        assert!(
+            bundle
+                .add_bound([("panel.js", String::new()), ("late.js", String::new())])
+                .is_err()
+        );
     }
 }

@@ -1,12 +1,14 @@
 //! Packs the panel: `uipack IN.wasm OUTDIR`.
 //!
-//! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen, and its functions into an order that packs well; the result, the page, the style sheet and the icons
+//! IN.wasm is what cargo made of clients/panel. It is split into what the first picture needs and what is loaded after it; the first goes
+//! through wasm-bindgen, and the functions of each into an order that packs well. The modules, the page, the style sheet and the icons
 //! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip and a Brotli twin. The page
 //! and the service worker alone keep their names: they are what a browser asks for first. OUTDIR is replaced as a whole.
 #![forbid(unsafe_code)]
 
 mod arrange;
 mod bundle;
+mod split;
 
 use std::env;
 use std::ffi::OsString;
@@ -17,6 +19,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use bundle::Bundle;
+use split::{LINK, SCRIPT};
 use wasm_bindgen_cli_support::{Bindgen, Output};
 
 /// Pictures of the panel, the one for the page first and that for the home screens of phones second.
@@ -38,7 +41,8 @@ fn main() -> ExitCode {
 }
 
 fn pack(wasm: &Path, folder: &Path) -> Result<()> {
-    let (script, module) = bind(wasm)?;
+    let parts = split::split(wasm, &sibling(folder, "split")?)?;
+    let (script, module) = bind(&parts.first)?;
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../clients/panel/static");
     let read_bytes = |name: &str| {
         let path = sources.join(name);
@@ -48,7 +52,12 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
         |name: &str| String::from_utf8(read_bytes(name)?).with_context(|| format!("{name} is not UTF-8"));
     let mut bundle = Bundle::default();
     let module_name = bundle.add("panel.wasm", module);
-    let script_name = bundle.add("panel.js", script.into_bytes());
+    let mut link = parts.link;
+    for (name, later) in parts.later {
+        let named = bundle.add(&name, arrange::alike_together(&later)?);
+        link = link.replace(&format!("./{name}"), &format!("./{named}"));
+    }
+    let [script_name, link_name] = bundle.add_bound([(SCRIPT, script), (LINK, link)])?;
     let boot = filled(
         &read("boot.js")?,
         &[("panel.js", &script_name), ("panel.wasm", &module_name)],
@@ -67,7 +76,8 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     };
     let names = [
         ("boot.js", &boot_name),
-        ("panel.js", &script_name),
+        (SCRIPT, &script_name),
+        (LINK, &link_name),
         ("panel.css", &style_name),
         ("manifest.webmanifest", &manifest_name),
         *icon,
@@ -108,6 +118,8 @@ fn bind(wasm: &Path) -> Result<(String, Vec<u8>)> {
         .omit_default_module_path(true)
         .remove_name_section(true)
         .remove_producers_section(true)
+        // Of these the later modules take the table of functions.
+        .keep_lld_exports(true)
         .generate_output()
         .with_context(|| {
             format!(
@@ -153,7 +165,7 @@ fn filled(template: &str, values: &[(&str, &String)]) -> Result<String> {
 
 /// Writes the bundle beside `folder` and puts it in its place. A folder that is not a packed panel is left alone.
 fn replace(folder: &Path, bundle: &Bundle) -> Result<()> {
-    let fresh = sibling(folder)?;
+    let fresh = sibling(folder, "new")?;
     if fresh.exists() {
         fs::remove_dir_all(&fresh).with_context(|| format!("cannot clear {}", fresh.display()))?;
     }
@@ -172,12 +184,13 @@ fn replace(folder: &Path, bundle: &Bundle) -> Result<()> {
     fs::rename(&fresh, folder).with_context(|| format!("cannot make {}", folder.display()))
 }
 
-fn sibling(folder: &Path) -> Result<PathBuf> {
+/// The folder beside OUTDIR whose name has the ending.
+fn sibling(folder: &Path, ending: &str) -> Result<PathBuf> {
     let mut name = folder
         .file_name()
         .context("OUTDIR must be the name of a folder")?
         .to_owned();
-    name.push(".new");
+    name.push(format!(".{ending}"));
     Ok(folder.with_file_name(name))
 }
 

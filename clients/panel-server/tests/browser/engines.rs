@@ -344,7 +344,7 @@ async fn random_gestures(engine: Engine) {
     assert_eq!(
         wire.text(MODULES_ASKED_FOR).await,
         "1",
-        "the largest file comes once"
+        "each of the large files comes once"
     );
     wire.text(COUNT_MOTIONS).await;
     let pad = serde_json::from_str(&wire.text(WHERE_IS_THE_PAD).await).unwrap();

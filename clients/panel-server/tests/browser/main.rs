@@ -25,6 +25,7 @@ mod history;
 mod keyboard;
 mod language;
 mod large_home;
+mod late;
 mod learnt;
 mod lending;
 mod lifetime;

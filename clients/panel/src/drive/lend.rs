@@ -26,7 +26,7 @@ fn remember(name: &Name) {
 }
 
 #[component]
-pub(super) fn LendView(store: Store) -> impl IntoView {
+pub(crate) fn LendView(store: Store) -> impl IntoView {
     let seat = store.seat;
     let text = RwSignal::new(remembered());
     let wrong = RwSignal::new(None::<String>);

@@ -12,13 +12,14 @@ use leptos::prelude::*;
 use panel_logic::{Driver, Offer};
 
 use crate::language::words;
-use crate::mixes::{MixEditor, ask_before_leaving};
+use crate::mixes::ask_before_leaving;
 use crate::store::Store;
 use choice::MixChoice;
-use lend::{LendView, LentState};
+use lend::LentState;
 use pad::Pad;
 use tilt::TiltButton;
 
+pub(crate) use lend::LendView;
 pub(crate) use seat::Seat;
 
 #[component]
@@ -50,9 +51,9 @@ pub(crate) fn DriveSheet(store: Store) -> impl IntoView {
                 {move || if store.bench.is_open_now() { words().drive.editor_close } else { words().drive.editor_open }}
             </button>
             <Hands seat />
-            <LendView store />
+            {store.late.when_there(move |views| (views.lend)(store))}
         </div>
-        <Show when=move || store.bench.is_open_now()><MixEditor store /></Show>
+        <Show when=move || store.bench.is_open_now()>{store.late.view(move |views| (views.mix_editor)(store))}</Show>
     }
 }
 

@@ -147,7 +147,7 @@ impl Store {
 }
 
 #[component]
-pub(super) fn EditBar(store: Store) -> impl IntoView {
+pub(crate) fn EditBar(store: Store) -> impl IntoView {
     let log = store.edits.log;
     let label =
         |way: Template<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));

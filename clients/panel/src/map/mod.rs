@@ -22,7 +22,10 @@ mod uploads;
 mod view;
 mod view_memory;
 
-pub(crate) use edit_bar::Edits;
+pub(crate) use edit_bar::{EditBar, Edits};
 pub(crate) use handle::MapHandle;
+pub(crate) use order_bar::OrderBar;
 pub(crate) use orders::Orders;
+pub(crate) use reshape_view::ReshapeView;
+pub(crate) use sketch_view::SketchView;
 pub(crate) use view::MapView;

@@ -7,11 +7,7 @@ use leptos::prelude::*;
 use panel_logic::{Orbit, has_carpet, scale_bar};
 
 use super::canvas::{MapCanvas, STEP, apply, fit, toggle_relief, zoom};
-use super::edit_bar::EditBar;
-use super::order_bar::OrderBar;
-use super::reshape_view::ReshapeView;
 use super::scene::{CameraMode, Ground, Scene};
-use super::sketch_view::SketchView;
 use super::view_memory::{keep_view, kept_view};
 use crate::changes::set_if_changed;
 use crate::icons::{Icon, icon};
@@ -37,14 +33,13 @@ pub(crate) fn MapView(store: Store) -> impl IntoView {
         <section class="map" aria-label=words().map.title>
             <MapCanvas store mode failure />
             <RoomNames store />
-            <SketchView store />
-            <ReshapeView store />
+            {store.late.when_there(move |views| (views.drawings)(store))}
             <GroundSwitch store shown=ground />
             <Failures failure footer />
             <MapTools store mode orbit />
             <MapFooter store footer />
         </section>
-        <OrderBar store />
+        {store.late.when_there(move |views| (views.order_bar)(store))}
     }
 }
 
@@ -97,7 +92,7 @@ fn MapTools(store: Store, mode: RwSignal<CameraMode>, orbit: RwSignal<Option<Orb
             >
                 "3D"
             </button>
-            <EditBar store />
+            {store.late.when_there(move |views| (views.edit_bar)(store))}
         </div>
     }
 }

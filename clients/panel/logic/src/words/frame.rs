@@ -25,6 +25,9 @@ screen! {
         decisions: "Decisions, newest first", "Otsused, uusimad eespool";
         no_decisions: "No decisions yet.", "Otsuseid veel ei ole.";
         dismiss: "Dismiss", "Sulge teade";
+        on_its_way: "Loading …", "Laadib …";
+        did_not_come: "This part of the page could not be loaded.", "Seda lehe osa ei õnnestunud laadida.";
+        load_again: "Try again", "Proovi uuesti";
         good: "OK", "Selge";
         save: "Save", "Salvesta";
         cancel: "Cancel", "Loobu";
