@@ -105,7 +105,7 @@ impl EstimateBasis {
             radius_m: self.radius_m,
             blocked: &[],
         };
-        let open = self.home.avoiding(self.order.avoid());
+        let open = self.home.avoiding(self.order.avoid(), budget).await;
         let reachable_cells = reachable(&open, &self.frame, inflation, budget).await;
         let estimator = PartEstimator {
             basis: &self,

@@ -73,7 +73,7 @@ impl<'a> ReachQuestion<'a> {
             return Ok(());
         }
         let judge = self.judge(Enough::ToBegin, budget).await;
-        let knowledge = home.avoiding(self.order.avoid());
+        let knowledge = home.avoiding(self.order.avoid(), budget).await;
         if judge.is_enough(&knowledge, budget).await {
             return Ok(());
         }
@@ -101,7 +101,7 @@ impl<'a> ReachQuestion<'a> {
                 .no_go()
                 .filter(|(other, _)| *other != number);
             let forbidden = others.map(|(_, no_go)| no_go).chain(self.order.avoid());
-            let knowledge = self.home.forbidding(forbidden);
+            let knowledge = self.home.forbidding(forbidden, budget).await;
             if judge.is_enough(&knowledge, budget).await {
                 numbers.push(number);
             }
@@ -127,7 +127,7 @@ impl<'a> ReachQuestion<'a> {
             asked: asked_floor,
             enough: more_than(swept_m2),
         };
-        let shut = self.home.avoiding(self.order.avoid());
+        let shut = self.home.avoiding(self.order.avoid(), budget).await;
         let reached = judge.floor(&shut, budget).await;
         let barrier = if judge.enough.is_met_by(reached) {
             // The map holds the way open, and the robot did not get there. A first run has nothing to compare with.
@@ -205,18 +205,17 @@ impl ReachJudge<'_> {
         let no_gos = home.annotations().no_go().map(|(_, no_go)| no_go);
         let all = no_gos.chain(order.avoid());
         let zones = all.filter(|no_go| no_go.shape() == NoGoShape::Zone);
-        if self
-            .is_enough(&home.forbidding(core::iter::empty()), budget)
-            .await
-        {
-            let is_wall = self.is_enough(&home.forbidding(zones), budget).await;
+        let open = home.forbidding(core::iter::empty(), budget).await;
+        if self.is_enough(&open, budget).await {
+            let without_walls = home.forbidding(zones, budget).await;
+            let is_wall = self.is_enough(&without_walls, budget).await;
             return Some(if is_wall {
                 Barrier::VirtualWall
             } else {
                 Barrier::NoGoZone
             });
         }
-        let shut = home.avoiding(order.avoid());
+        let shut = home.avoiding(order.avoid(), budget).await;
         let doors = home.rooms().doors();
         let is_in_door = |cell: Cell| doors.iter().any(|door| stands_in(door, cell.middle()));
         let mut open = shut.clone();

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use super::distance::window;
 use super::home::without_no_go;
 use super::kept_home::KeptHome;
 use super::occupancy_grid::{CellBox, Flag, OccupancyGrid};
 use super::reach::reachable_in_steps;
-use super::zone_cells::{cells_around, cells_between, cells_of};
+use super::zone_cells::{cells_around, cells_between};
 use super::{Annotations, CELL_M, Cell, CellKnowledge, Raster, Rooms};
 use crate::model::edit_error::EditError;
 use crate::model::geometry::{Point2, Pose2};
@@ -67,18 +68,26 @@ impl HomeFloor {
     }
 
     /// The knowledge with cells to avoid in a job as no-go cells.
-    pub(crate) fn avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
-        with_no_go(self.knowledge.clone(), self.grid.bounds(), avoid.iter())
+    pub(crate) async fn avoiding(&self, avoid: &[NoGo], budget: &mut StepBudget) -> Raster<CellKnowledge> {
+        let mut knowledge = self.knowledge.clone();
+        forbid(&mut knowledge, avoid.iter(), budget).await;
+        knowledge
     }
 
     /// The knowledge as if these alone were forbidden.
-    pub(crate) fn forbidding<'a>(&self, forbidden: impl Iterator<Item = &'a NoGo>) -> Raster<CellKnowledge> {
-        let open = if self.forbids_cells {
+    pub(crate) async fn forbidding<'a>(
+        &self,
+        forbidden: impl Iterator<Item = &'a NoGo>,
+        budget: &mut StepBudget,
+    ) -> Raster<CellKnowledge> {
+        let mut knowledge = if self.forbids_cells {
             without_no_go(&self.knowledge, &self.grid)
         } else {
             self.knowledge.clone()
         };
-        with_no_go(open, self.grid.bounds(), forbidden)
+        budget.spend(LOOK_WORK * knowledge.values().len()).await;
+        forbid(&mut knowledge, forbidden, budget).await;
+        knowledge
     }
 
     /// Cells that were floor become free where `is_asked`, whether they are occupied now or in dispute. Walls were none, and cliffs and
@@ -133,7 +142,7 @@ impl HomeFloor {
     /// Marks the free floor of a part: the cells of [`Self::knowledge`], row after row.
     pub(crate) async fn mark_asked(&self, part: &HomePart, asked: &mut Vec<bool>, budget: &mut StepBudget) {
         asked.resize(self.knowledge.values().len(), false);
-        let Some(window) = super::distance::window(&self.knowledge) else {
+        let Some(all) = window(&self.knowledge) else {
             return;
         };
         let work = LOOK_WORK
@@ -141,7 +150,7 @@ impl HomeFloor {
                 HomePart::Zone(zone) => EDGE_WORK * zone.corners().len(),
                 HomePart::Room(_) | HomePart::Spot(_) => LOOK_WORK,
             };
-        for cell in cells_of_part(part, window) {
+        for cell in cells_of_part(part, all) {
             if let Some(index) = self.knowledge.index(cell)
                 && self.knowledge.values().get(index) == Some(&CellKnowledge::Free)
                 && self.rooms.is_in_part(cell, part)
@@ -168,11 +177,7 @@ impl HomeFloor {
         // How much can be reached now is the same for all of them.
         let mut reached_now = None;
         for no_go in no_gos {
-            let is_floor = |cell: Cell| {
-                let kind = self.knowledge.get(cell);
-                matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
-            };
-            if !cells_of(no_go.area(), window).any(is_floor) {
+            if !self.forbids_floor(no_go.area(), window, budget).await {
                 return Err(EditError::NoFloorThere);
             }
             if let Some(dock) = self.dock {
@@ -182,7 +187,7 @@ impl HomeFloor {
                     None => self.reached_cells(&self.knowledge, before, budget).await,
                 };
                 reached_now = Some(now);
-                let with_zone = with_no_go(self.knowledge.clone(), Some(window), [no_go].into_iter());
+                let with_zone = self.avoiding(core::slice::from_ref(no_go), budget).await;
                 // Two fifths: a wall that keeps one of two rooms of a size is a wish, not a mistake.
                 if 5 * self.reached_cells(&with_zone, before, budget).await < 2 * now {
                     return Err(EditError::DockShutOff);
@@ -190,6 +195,18 @@ impl HomeFloor {
             }
         }
         Ok(())
+    }
+
+    async fn forbids_floor(&self, area: &Zone, window: CellBox, budget: &mut StepBudget) -> bool {
+        for cell in cells_around(area, window) {
+            let kind = self.knowledge.get(cell);
+            let is_floor = matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo));
+            if is_floor && area.contains(cell.middle()) {
+                return true;
+            }
+            budget.spend(LOOK_WORK + EDGE_WORK * area.corners().len()).await;
+        }
+        false
     }
 
     /// The place before the dock from which the robot drives in, if the zone leaves the strip between them open.
@@ -241,21 +258,23 @@ fn cells_of_part(part: &HomePart, window: CellBox) -> Box<dyn Iterator<Item = Ce
     }
 }
 
-/// The knowledge with cells of `window` that are forbidden besides.
-pub(super) fn with_no_go<'a>(
-    mut knowledge: Raster<CellKnowledge>,
-    window: Option<CellBox>,
+/// Forbids cells besides.
+pub(super) async fn forbid<'a>(
+    knowledge: &mut Raster<CellKnowledge>,
     forbidden: impl Iterator<Item = &'a NoGo>,
-) -> Raster<CellKnowledge> {
-    let Some(window) = window else {
-        return knowledge;
-    };
-    for cell in forbidden.flat_map(|no_go| cells_of(no_go.area(), window)) {
-        if let Some(kind) = knowledge.get_mut(cell) {
-            *kind = CellKnowledge::NoGo;
+    budget: &mut StepBudget,
+) {
+    let Some(all) = window(knowledge) else { return };
+    for area in forbidden.map(NoGo::area) {
+        for cell in cells_around(area, all) {
+            if area.contains(cell.middle())
+                && let Some(kind) = knowledge.get_mut(cell)
+            {
+                *kind = CellKnowledge::NoGo;
+            }
+            budget.spend(LOOK_WORK + EDGE_WORK * area.corners().len()).await;
         }
     }
-    knowledge
 }
 
 /// What was floor, whatever stands there now.

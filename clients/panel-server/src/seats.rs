@@ -293,7 +293,7 @@ mod tests {
         let other = of_device(&seats, 3, 1);
         let taken = of_device(&seats, 2, OF_DEVICE_MAX + 3);
         assert_eq!(parting(&taken), [0, 1, 2]);
-        assert_eq!(parting(&other), [], "another one keeps its own");
+        assert!(parting(&other).is_empty(), "another one keeps its own");
         taken[9].belongs_to(device(2));
         assert_eq!(parting(&taken), [0, 1, 2], "showing itself again takes no more");
         assert_eq!(seats.count(), OF_DEVICE_MAX + 1);

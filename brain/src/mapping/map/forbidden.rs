@@ -1,7 +1,7 @@
 //! Floor that people have forbidden, and floor around it.
 
 use super::Map;
-use crate::mapping::home_floor::with_no_go;
+use crate::mapping::home_floor::forbid;
 use crate::mapping::reach::passable;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::Point2;
@@ -17,7 +17,9 @@ impl Map {
 
     /// The knowledge with cells to avoid in a job as no-go cells.
     pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
-        with_no_go(self.knowledge().clone(), self.home.bounds(), avoid.iter())
+        let mut knowledge = self.knowledge().clone();
+        at_once(forbid(&mut knowledge, avoid.iter(), &mut StepBudget::unlimited()));
+        knowledge
     }
 
     /// Where the centre of a body with `clearance_m` around it may be if nothing were forbidden, and where over allowed floor only.
