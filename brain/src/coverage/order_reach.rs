@@ -93,17 +93,24 @@ impl<'a> ReachQuestion<'a> {
     /// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
     async fn in_the_way(self, budget: &mut StepBudget) -> Vec<u16> {
         let judge = self.judge(Enough::ToBegin, budget).await;
+        let no_gos = || self.home.annotations().no_go();
+        let mut groups: Vec<Vec<u16>> = vec![no_gos().map(|(number, _)| number).collect()];
         let mut numbers = Vec::new();
-        for (number, _) in self.home.annotations().no_go() {
-            let others = self
-                .home
-                .annotations()
-                .no_go()
-                .filter(|(other, _)| *other != number);
+        // Without a group there is at least as much within reach as without one of it: where that is not enough, none of it is asked alone.
+        while let Some(group) = groups.pop() {
+            let others = no_gos().filter(|(number, _)| !group.contains(number));
             let forbidden = others.map(|(_, no_go)| no_go).chain(self.order.avoid());
             let knowledge = self.home.forbidding(forbidden, budget).await;
-            if judge.is_enough(&knowledge, budget).await {
-                numbers.push(number);
+            if !judge.is_enough(&knowledge, budget).await {
+                continue;
+            }
+            match group.as_slice() {
+                [] => {}
+                [number] => numbers.push(*number),
+                _ => {
+                    let (low, high) = group.split_at(group.len() / 2);
+                    groups.extend([high.to_vec(), low.to_vec()]);
+                }
             }
         }
         numbers

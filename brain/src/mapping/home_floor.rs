@@ -174,24 +174,24 @@ impl HomeFloor {
                 Err(EditError::NoMap)
             };
         };
-        // How much can be reached now is the same for all of them.
-        let mut reached_now = None;
+        let mut way = match self.dock {
+            Some(dock) if !no_gos.is_empty() => Some(self.way_to_dock(dock, budget).await),
+            _ => None,
+        };
+        if let Some(way) = &mut way {
+            // What all of them together leave open each of them does.
+            way.is_kept_by_all = no_gos.len() > 1 && self.keeps(way, no_gos, budget).await;
+        }
         for no_go in no_gos {
             if !self.forbids_floor(no_go.area(), window, budget).await {
                 return Err(EditError::NoFloorThere);
             }
-            if let Some(dock) = self.dock {
-                let before = self.before_dock(no_go.area(), dock)?;
-                let now = match reached_now {
-                    Some(now) => now,
-                    None => self.reached_cells(&self.knowledge, before, budget).await,
-                };
-                reached_now = Some(now);
-                let with_zone = self.avoiding(core::slice::from_ref(no_go), budget).await;
-                // Two fifths: a wall that keeps one of two rooms of a size is a wish, not a mistake.
-                if 5 * self.reached_cells(&with_zone, before, budget).await < 2 * now {
-                    return Err(EditError::DockShutOff);
-                }
+            let Some(way) = &way else { continue };
+            if self.is_in_strip(no_go.area(), way) {
+                return Err(EditError::DockInside);
+            }
+            if !way.is_kept_by_all && !self.keeps(way, core::slice::from_ref(no_go), budget).await {
+                return Err(EditError::DockShutOff);
             }
         }
         Ok(())
@@ -209,20 +209,27 @@ impl HomeFloor {
         false
     }
 
-    /// The place before the dock from which the robot drives in, if the zone leaves the strip between them open.
-    fn before_dock(&self, zone: &Zone, dock: Pose2) -> Result<Point2, EditError> {
-        let ahead = |front_m: f64| {
-            dock.transform(Point2 {
-                x_m: -front_m,
-                y_m: 0.0,
-            })
+    async fn way_to_dock(&self, dock: Pose2, budget: &mut StepBudget) -> WayToDock {
+        let mut way = WayToDock {
+            dock,
+            reached_cells: 0,
+            is_kept_by_all: false,
         };
-        let is_in_strip = |step: u32| zone.distance_m(ahead(f64::from(step) * CELL_M)) < self.radius_m;
-        if (0..=DOCK_STRIP_CELLS).any(is_in_strip) {
-            Err(EditError::DockInside)
-        } else {
-            Ok(ahead(f64::from(DOCK_STRIP_CELLS) * CELL_M))
-        }
+        way.reached_cells = self.reached_cells(&self.knowledge, way.beginning(), budget).await;
+        way
+    }
+
+    fn is_in_strip(&self, zone: &Zone, way: &WayToDock) -> bool {
+        let mut steps = 0..=DOCK_STRIP_CELLS;
+        steps.any(|step| zone.distance_m(way.ahead(step)) < self.radius_m)
+    }
+
+    /// Whether most of the floor that is within reach of the dock now stays so.
+    async fn keeps(&self, way: &WayToDock, no_gos: &[NoGo], budget: &mut StepBudget) -> bool {
+        let forbidden = self.avoiding(no_gos, budget).await;
+        let left = self.reached_cells(&forbidden, way.beginning(), budget).await;
+        // Two fifths: a wall that keeps one of two rooms of a size is a wish, not a mistake.
+        5 * left >= 2 * way.reached_cells
     }
 
     async fn reached_cells(
@@ -233,6 +240,30 @@ impl HomeFloor {
     ) -> usize {
         let reached = reachable_in_steps(knowledge, (from, self.radius_m), budget).await;
         reached.values().iter().filter(|is| **is).count()
+    }
+}
+
+/// The way to the dock as it is without anything more forbidden.
+struct WayToDock {
+    dock: Pose2,
+    /// From where it begins.
+    reached_cells: usize,
+    /// By all places to avoid together.
+    is_kept_by_all: bool,
+}
+
+impl WayToDock {
+    /// So many cells before the dock.
+    fn ahead(&self, cells: u32) -> Point2 {
+        self.dock.transform(Point2 {
+            x_m: -f64::from(cells) * CELL_M,
+            y_m: 0.0,
+        })
+    }
+
+    /// The place before the dock from which the robot drives in.
+    fn beginning(&self) -> Point2 {
+        self.ahead(DOCK_STRIP_CELLS)
     }
 }
 

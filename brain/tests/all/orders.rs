@@ -294,8 +294,8 @@ fn whether_an_order_can_be_carried_out_is_found_in_steps_as_well() {
     let (careful, made) = steps_of(&stage.brain, &order.clone().avoiding(avoid).unwrap());
     assert!(made.is_ok(), "{made:?}");
     assert!(
-        careful >= plain + 16,
-        "each place to avoid is judged in a step of its own: {plain}, {careful}"
+        careful >= plain + 2,
+        "what is left without the places to avoid is found in steps of its own: {plain}, {careful}"
     );
     forbid(&mut stage, in_doorway());
     let (refused, made) = steps_of(&stage.brain, &order);
@@ -586,6 +586,10 @@ fn estimate_and_admission_are_one_judgement_that_names_what_shuts_floor_off() {
         let mut stage = Stage::new();
         forbid(&mut stage, wall((0.3, 3.2), (0.8, 3.2)));
         forbid(&mut stage, no_go.clone());
+        for place in 1..6 {
+            let x_m = 0.4 * f64::from(place);
+            forbid(&mut stage, wall((x_m, 3.2), (x_m + 0.2, 3.3)));
+        }
         let order = other_room(Vec::new());
         let told = stage.brain.estimate_order(&order).expect_err("shut off");
         assert_eq!(told.in_the_way, [2]);
