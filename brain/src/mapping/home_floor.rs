@@ -98,7 +98,7 @@ impl HomeFloor {
         is_asked: impl Fn(Cell) -> bool,
         budget: &mut StepBudget,
     ) {
-        let past = PastFloor {
+        let past = EarlierFloor {
             grid: &self.grid,
             kept: self.kept.as_deref(),
         };
@@ -310,12 +310,12 @@ pub(super) async fn forbid<'a>(
 
 /// What was floor, whatever stands there now.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PastFloor<'a> {
+pub(super) struct EarlierFloor<'a> {
     pub(super) grid: &'a OccupancyGrid,
     pub(super) kept: Option<&'a KeptHome>,
 }
 
-impl PastFloor<'_> {
+impl EarlierFloor<'_> {
     /// Whether a cell was floor before this run, or the body was in it.
     fn was_floor(self, cell: Cell) -> bool {
         self.kept

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{LoadedHome, Map};
 use crate::mapping::home::HomeMap;
-use crate::mapping::home_floor::{HomeFloor, PastFloor};
+use crate::mapping::home_floor::{EarlierFloor, HomeFloor};
 use crate::mapping::occupancy_grid::Flag;
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
@@ -238,7 +238,7 @@ impl Map {
         knowledge: &mut Raster<CellKnowledge>,
         is_asked: impl Fn(&Raster<CellKnowledge>, usize) -> bool,
     ) {
-        let past = PastFloor {
+        let past = EarlierFloor {
             grid: &self.home.grid,
             kept: self.home.known.as_ref().map(|known| &*known.kept),
         };
