@@ -15,7 +15,6 @@ mod young_map;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
-use crate::coverage::in_the_way;
 use crate::localization::Localization;
 use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, NextNumbers, StampedOdometry,
@@ -236,13 +235,6 @@ impl Brain {
     /// of a recording, so such a run cannot be replayed.
     pub fn place_at(&mut self, pose: Pose2) {
         self.localization.place_at(pose);
-    }
-
-    /// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
-    #[must_use]
-    pub fn no_go_in_the_way(&self, order: &CleaningOrder) -> Vec<u16> {
-        let radius_m = self.config.body.radius_m;
-        in_the_way(order, &self.map, self.pose().position(), radius_m)
     }
 
     /// Strategy that suits the robot of the last step. [`StrategyName::Systematic`] needs range sensors with known mounting positions

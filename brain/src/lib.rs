@@ -19,7 +19,7 @@ pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
 pub use brain::checkpoint::{Checkpoint, CheckpointWork};
 pub use brain::estimating::EstimateWork;
 pub use brain::{Brain, PlannedPath, checkpoint};
-pub use coverage::JobEstimate;
+pub use coverage::{JobEstimate, OrderRefusal};
 pub use localization::{StoreyFinder, StoreyFinding, StoreyPose, TrackingCheckpoint};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, CellPasses, DistanceField, Hazard, HazardKind, Keyframe, LoadedHome, Map,

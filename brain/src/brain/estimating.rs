@@ -3,18 +3,18 @@
 use core::task::Poll;
 
 use super::Brain;
-use crate::coverage::{EstimateBasis, JobConditions, JobEstimate};
+use crate::coverage::{EstimateBasis, JobConditions, JobEstimate, OrderRefusal, ReachQuestion};
 use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::CleaningOrder;
 
 /// An estimate in the making, of the map as it was when it began.
 #[derive(Debug)]
-pub struct EstimateWork(Gradual<Result<JobEstimate, JobRefusal>>);
+pub struct EstimateWork(Gradual<Result<JobEstimate, OrderRefusal>>);
 
 impl EstimateWork {
     /// Does the next step. Must not be called again after it returned the estimate, or why there is none.
-    pub fn go_on(&mut self) -> Option<Result<JobEstimate, JobRefusal>> {
+    pub fn go_on(&mut self) -> Option<Result<JobEstimate, OrderRefusal>> {
         match self.0.go_on() {
             Poll::Ready(result) => Some(result),
             Poll::Pending => None,
@@ -27,21 +27,31 @@ impl Brain {
     ///
     /// # Errors
     /// Why the order cannot be carried out in this map.
-    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
-        at_once(self.estimate_basis(order)?.estimate(&mut StepBudget::unlimited()))
+    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, OrderRefusal> {
+        at_once(self.estimate_basis(order).estimate(&mut StepBudget::unlimited()))
     }
 
     /// As [`Self::estimate_order`], in steps: for a shell that answers others meanwhile.
-    ///
-    /// # Errors
-    /// Why the order cannot be carried out in this map.
-    pub fn begin_estimate(&self, order: &CleaningOrder) -> Result<EstimateWork, JobRefusal> {
-        let basis = self.estimate_basis(order)?;
+    #[must_use]
+    pub fn begin_estimate(&self, order: &CleaningOrder) -> EstimateWork {
+        let basis = self.estimate_basis(order);
         let estimate = async move { basis.estimate(&mut StepBudget::limited()).await };
-        Ok(EstimateWork(Gradual::new(estimate)))
+        EstimateWork(Gradual::new(estimate))
     }
 
-    fn estimate_basis(&self, order: &CleaningOrder) -> Result<EstimateBasis, JobRefusal> {
+    /// Why an order was refused by [`Self::admit`], with what is in its way.
+    #[must_use]
+    pub fn order_refusal(&self, reason: JobRefusal, order: &CleaningOrder) -> OrderRefusal {
+        let question = ReachQuestion {
+            order,
+            home: &self.map.home_floor(),
+            from: self.pose().position(),
+            radius_m: self.config.body.radius_m,
+        };
+        at_once(question.refusal(reason, &mut StepBudget::unlimited()))
+    }
+
+    fn estimate_basis(&self, order: &CleaningOrder) -> EstimateBasis {
         let conditions = JobConditions {
             map: &self.map,
             start: self.pose(),

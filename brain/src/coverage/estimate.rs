@@ -1,10 +1,10 @@
 //! What a job will take, estimated before it begins.
 
-use super::order_reach::admit_reach;
+use super::order_reach::{OrderRefusal, ReachQuestion};
 use super::parameters::{ESTIMATE, MARGINS};
 use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
-use crate::mapping::{Annotations, Cell, CellKnowledge, Map, Raster, Rooms, Sigmas};
+use crate::mapping::{Cell, CellKnowledge, HomeFloor, Map, Raster};
 use crate::model::config::BrainConfig;
 use crate::model::edit_error::EditError;
 use crate::model::energy::{EnergyModel, PackUse, time_to_return_s};
@@ -55,30 +55,23 @@ pub(crate) struct JobConditions<'brain> {
 pub(crate) struct EstimateBasis {
     order: CleaningOrder,
     start: Pose2,
+    is_sure: bool,
     settings: PlanSettings,
-    /// Radius of the body with clearance.
+    /// Radius of the body, without and with clearance.
+    body_m: f64,
     radius_m: f64,
     /// Charge of a full pack.
     full: f64,
     energy: EnergyModel,
     held: Option<f64>,
     frame: LaneFrame,
-    words: Annotations,
-    rooms: Rooms,
-    knowledge: Raster<CellKnowledge>,
-    /// The same without what the order avoids.
-    open: Raster<CellKnowledge>,
-    sigmas: Sigmas,
-    dock: Option<Pose2>,
-    has_floor: bool,
+    home: HomeFloor,
 }
 
 impl EstimateBasis {
-    /// What the estimate of `order` under these conditions needs.
-    ///
-    /// # Errors
-    /// Why the order cannot be carried out in this map.
-    pub(crate) fn of(order: &CleaningOrder, conditions: JobConditions<'_>) -> Result<Self, JobRefusal> {
+    /// What the estimate of `order` under these conditions needs. Whether it can be carried out is for the estimate itself to say: that
+    /// takes as long.
+    pub(crate) fn of(order: &CleaningOrder, conditions: JobConditions<'_>) -> Self {
         let JobConditions {
             map,
             start,
@@ -87,39 +80,33 @@ impl EstimateBasis {
             energy,
             charge,
         } = conditions;
-        map.admit_order(order)?;
-        if is_sure {
-            admit_reach(order, map, start.position(), config.body.radius_m)?;
-        }
-        Ok(Self {
+        Self {
             order: order.clone(),
             start,
+            is_sure,
             settings: plan_settings(config),
+            body_m: config.body.radius_m,
             radius_m: config.body.radius_m + MARGINS.clearance_m,
             full: f64::from(config.battery_charged),
             energy: *energy,
             held: charge,
             frame: LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0)),
-            words: map.annotations().clone(),
-            rooms: map.rooms().clone(),
-            knowledge: map.knowledge().clone(),
-            open: map.knowledge_avoiding(order.avoid()),
-            sigmas: map.sigmas(),
-            dock: map.dock(),
-            has_floor: map.free_m2() > 0.0,
-        })
+            home: map.home_floor(),
+        }
     }
 
     /// What the order takes.
     ///
     /// # Errors
-    /// There is no floor that can be swept.
-    pub(crate) async fn estimate(self, budget: &mut StepBudget) -> Result<JobEstimate, JobRefusal> {
+    /// Why the order cannot be carried out in this home, or that there is no floor that can be swept.
+    pub(crate) async fn estimate(self, budget: &mut StepBudget) -> Result<JobEstimate, OrderRefusal> {
+        self.admit(budget).await?;
         let inflation = Inflation {
             radius_m: self.radius_m,
             blocked: &[],
         };
-        let reachable_cells = reachable(&self.open, &self.frame, inflation, budget).await;
+        let open = self.home.avoiding(self.order.avoid(), budget).await;
+        let reachable_cells = reachable(&open, &self.frame, inflation, budget).await;
         let estimator = PartEstimator {
             basis: &self,
             reachable_cells,
@@ -132,16 +119,36 @@ impl EstimateBasis {
         if sum.floor_m2 > 0.0 {
             return Ok(self.result(&sum));
         }
-        Err(if self.has_floor {
+        let reason = if self.home.has_floor() {
             JobRefusal::RestOutOfReach
         } else {
             EditError::NoMap.into()
-        })
+        };
+        Err(reason.into())
+    }
+
+    /// As the order itself is admitted.
+    async fn admit(&self, budget: &mut StepBudget) -> Result<(), OrderRefusal> {
+        let admitted = self.home.admit_order(&self.order, budget).await;
+        admitted.map_err(JobRefusal::from)?;
+        let question = ReachQuestion {
+            order: &self.order,
+            home: &self.home,
+            from: self.start.position(),
+            radius_m: self.body_m,
+        };
+        if self.is_sure
+            && let Err(reason) = question.admit(budget).await
+        {
+            return Err(question.refusal(reason, budget).await);
+        }
+        Ok(())
     }
 
     fn result(&self, sum: &OrderTotal) -> JobEstimate {
         let home_m = self
-            .dock
+            .home
+            .dock()
             .map(|dock| sum.pose.position().distance_m(dock.position()));
         let cruise_m_per_s = self.settings.cruise_m_per_s;
         let home_s = home_m.map_or(0.0, |home_m| time_to_return_s(home_m, cruise_m_per_s));
@@ -227,11 +234,10 @@ impl PartEstimator<'_> {
             order,
             frame,
             settings,
-            words,
-            rooms,
+            home,
             ..
         } = self.basis;
-        let target = TargetFloor::within(order, part, (words, rooms));
+        let target = TargetFloor::within(order, part, home);
         let area = Area {
             pattern: |cell: Cell| target.pattern_at(frame.cell_in_map(cell)),
             is_swept: |_| false,
@@ -243,7 +249,7 @@ impl PartEstimator<'_> {
         let plan = plan_area(&self.reachable_cells, area, from, budget).await;
         let plan = plan.in_map(frame);
         let end = plan.segments.last().map_or(start, |last| last.at(1.0));
-        let passes = words.passes_over(order, part);
+        let passes = home.annotations().passes_over(order, part);
         let (kept, kept_low) = self.kept(&target, passes, budget).await;
         PartEstimate {
             end,
@@ -256,22 +262,17 @@ impl PartEstimator<'_> {
 
     /// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
     async fn kept(&self, target: &TargetFloor, passes: u8, budget: &mut StepBudget) -> (f64, f64) {
-        let EstimateBasis {
-            knowledge,
-            sigmas,
-            settings,
-            ..
-        } = self.basis;
+        let EstimateBasis { home, settings, .. } = self.basis;
         let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
         let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
-        for (index, known) in knowledge.values().iter().enumerate() {
+        for (index, known) in home.knowledge().values().iter().enumerate() {
             if *known != CellKnowledge::Free {
                 continue;
             }
-            let cell = knowledge.cell(index);
+            let cell = home.knowledge().cell(index);
             budget.spend(LOOK_WORK).await;
             if target.pattern_at(cell).is_some() {
-                let sigma_m = sigma_or_default_m(sigmas.at_m(cell));
+                let sigma_m = sigma_or_default_m(home.sigma_m(cell));
                 cells += 1;
                 sum += 1.0 - left(sigma_m);
                 sum_low += 1.0 - left(ESTIMATE.low_bound_factor * sigma_m);

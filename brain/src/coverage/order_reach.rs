@@ -2,14 +2,20 @@
 //! Admission, the estimate and the end of a job ask the same question here, so that they never disagree.
 
 use super::parameters::REACH;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Door, Map, Raster, covered, reachable};
+use crate::mapping::{
+    CELL_M, Cell, CellKnowledge, Door, HomeFloor, Map, Raster, covered_in_steps, reachable_in_steps,
+};
 use crate::model::geometry::Point2;
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::no_go::NoGoShape;
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::model::room_settings::Pattern;
 use crate::navigation::Situation;
+
+/// Work to count a cell.
+const COUNT_WORK: usize = 1;
 
 /// Floor of an order, square metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,42 +33,227 @@ impl OrderFloor {
     }
 }
 
-/// Whether a robot at `from` with this radius can reach enough of what is ordered.
-///
-/// # Errors
-/// What keeps it from there.
-pub(crate) fn admit_reach(
-    order: &CleaningOrder,
-    map: &Map,
-    from: Point2,
-    radius_m: f64,
-) -> Result<(), JobRefusal> {
-    // From within a no-go zone nothing says how the robot gets out of it.
-    let stands_in_no_go = map.knowledge().get(Cell::under(from)) == Some(&CellKnowledge::NoGo);
-    if order.is_for_whole_home() || stands_in_no_go {
-        return Ok(());
-    }
-    let knowledge = map.knowledge_avoiding(order.avoid());
-    if !floor_of(order, map, &knowledge, (from, radius_m)).is_out_of_reach() {
-        return Ok(());
-    }
-    let barrier = Barrier::that(order, map, |knowledge| {
-        !floor_of(order, map, knowledge, (from, radius_m)).is_out_of_reach()
-    });
-    Err(barrier.map_or(JobRefusal::RestOutOfReach, Barrier::refusal))
+/// Why an order is refused, and what of the home's own no-go zones and virtual walls is in its way.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OrderRefusal {
+    /// Why.
+    pub reason: JobRefusal,
+    /// Numbers of those each of which alone shuts off what is ordered; of other reasons there are none.
+    pub in_the_way: Vec<u16>,
 }
 
-/// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
-pub(crate) fn in_the_way(order: &CleaningOrder, map: &Map, from: Point2, radius_m: f64) -> Vec<u16> {
-    let words = map.annotations();
-    let shuts_off = |number: u16| {
-        let others = words.no_go().filter(|(other, _)| *other != number);
-        let forbidden = others.map(|(_, no_go)| no_go).chain(order.avoid());
-        let knowledge = map.knowledge_forbidding(forbidden);
-        !floor_of(order, map, &knowledge, (from, radius_m)).is_out_of_reach()
-    };
-    let numbers = words.no_go().map(|(number, _)| number);
-    numbers.filter(|number| shuts_off(*number)).collect()
+impl From<JobRefusal> for OrderRefusal {
+    fn from(reason: JobRefusal) -> Self {
+        Self {
+            reason,
+            in_the_way: Vec::new(),
+        }
+    }
+}
+
+/// An order, asked of the floor of a home by a robot with this radius at a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ReachQuestion<'a> {
+    pub(crate) order: &'a CleaningOrder,
+    pub(crate) home: &'a HomeFloor,
+    pub(crate) from: Point2,
+    pub(crate) radius_m: f64,
+}
+
+impl<'a> ReachQuestion<'a> {
+    /// Whether the robot can reach enough of what is ordered.
+    ///
+    /// # Errors
+    /// What keeps it from there.
+    pub(crate) async fn admit(self, budget: &mut StepBudget) -> Result<(), JobRefusal> {
+        let home = self.home;
+        // From within a no-go zone nothing says how the robot gets out of it.
+        let stands_in_no_go = home.knowledge().get(Cell::under(self.from)) == Some(&CellKnowledge::NoGo);
+        if self.order.is_for_whole_home() || stands_in_no_go {
+            return Ok(());
+        }
+        let judge = self.judge(Enough::ToBegin, budget).await;
+        let knowledge = home.avoiding(self.order.avoid(), budget).await;
+        if judge.is_enough(&knowledge, budget).await {
+            return Ok(());
+        }
+        let barrier = judge.barrier(budget).await;
+        Err(barrier.map_or(JobRefusal::RestOutOfReach, Barrier::refusal))
+    }
+
+    /// Why the order is refused, with what is in its way.
+    pub(crate) async fn refusal(self, reason: JobRefusal, budget: &mut StepBudget) -> OrderRefusal {
+        let in_the_way = match reason {
+            JobRefusal::NoGoInTheWay | JobRefusal::VirtualWallInTheWay => self.in_the_way(budget).await,
+            _ => Vec::new(),
+        };
+        OrderRefusal { reason, in_the_way }
+    }
+
+    /// Numbers of the no-go zones and virtual walls each of which alone shuts off what is ordered.
+    async fn in_the_way(self, budget: &mut StepBudget) -> Vec<u16> {
+        let judge = self.judge(Enough::ToBegin, budget).await;
+        let no_gos = || self.home.annotations().no_go();
+        let mut groups: Vec<Vec<u16>> = vec![no_gos().map(|(number, _)| number).collect()];
+        let mut numbers = Vec::new();
+        // Without a group there is at least as much within reach as without one of it: where that is not enough, none of it is asked alone.
+        while let Some(group) = groups.pop() {
+            let others = no_gos().filter(|(number, _)| !group.contains(number));
+            let forbidden = others.map(|(_, no_go)| no_go).chain(self.order.avoid());
+            let knowledge = self.home.forbidding(forbidden, budget).await;
+            if !judge.is_enough(&knowledge, budget).await {
+                continue;
+            }
+            match group.as_slice() {
+                [] => {}
+                [number] => numbers.push(*number),
+                _ => {
+                    let (low, high) = group.split_at(group.len() / 2);
+                    groups.extend([high.to_vec(), low.to_vec()]);
+                }
+            }
+        }
+        numbers
+    }
+
+    /// As [`left_most`].
+    async fn left_most(self, map: &Map, budget: &mut StepBudget) -> Option<Reason> {
+        let asked_floor = asked_floor(self.order, self.home, budget).await;
+        let (mut asked, mut swept) = (0_u32, 0_u32);
+        for (index, _) in asked_floor.iter().enumerate().filter(|(_, is_asked)| **is_asked) {
+            asked += 1;
+            swept += u32::from(map.is_swept(self.home.knowledge().cell(index).middle()));
+        }
+        if asked == 0 || f64::from(swept) >= REACH.finished_share * f64::from(asked) {
+            return None;
+        }
+        let [swept_m2, left_m2] = [swept, asked - swept].map(|cells| f64::from(cells) * CELL_M * CELL_M);
+        let more_than = |m2: f64| Enough::MoreThan(m2 + REACH.finished_share * left_m2);
+        let mut judge = ReachJudge {
+            question: self,
+            asked: asked_floor,
+            enough: more_than(swept_m2),
+        };
+        let shut = self.home.avoiding(self.order.avoid(), budget).await;
+        let reached = judge.floor(&shut, budget).await;
+        let barrier = if judge.enough.is_met_by(reached) {
+            // The map holds the way open, and the robot did not get there. A first run has nothing to compare with.
+            let knows = !self.order.is_for_whole_home() || map.knows_home();
+            match knows {
+                true => Some(judge.met(map, &shut, budget).await),
+                false => None,
+            }
+        } else {
+            judge.enough = more_than(reached.reached_m2);
+            judge.barrier(budget).await
+        };
+        Some(barrier.map_or(Reason::MostOutOfReach, Barrier::reason))
+    }
+
+    /// Who judges by what is asked for: known floor that is ordered and not forbidden.
+    async fn judge(self, enough: Enough, budget: &mut StepBudget) -> ReachJudge<'a> {
+        ReachJudge {
+            question: self,
+            asked: asked_floor(self.order, self.home, budget).await,
+            enough,
+        }
+    }
+}
+
+/// How much floor is enough.
+#[derive(Clone, Copy, Debug)]
+enum Enough {
+    /// To begin a job.
+    ToBegin,
+    /// More than so many square metres within reach.
+    MoreThan(f64),
+}
+
+impl Enough {
+    fn is_met_by(self, floor: OrderFloor) -> bool {
+        match self {
+            Self::ToBegin => !floor.is_out_of_reach(),
+            Self::MoreThan(reached_m2) => floor.reached_m2 > reached_m2,
+        }
+    }
+}
+
+/// Judges how much of what is asked for can be reached.
+struct ReachJudge<'a> {
+    question: ReachQuestion<'a>,
+    /// Whether each cell of the home's knowledge is asked for, row after row.
+    asked: Vec<bool>,
+    enough: Enough,
+}
+
+impl ReachJudge<'_> {
+    async fn is_enough(&self, knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> bool {
+        self.enough.is_met_by(self.floor(knowledge, budget).await)
+    }
+
+    async fn floor(&self, knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> OrderFloor {
+        let ReachQuestion { from, radius_m, .. } = self.question;
+        let reached = reachable_in_steps(knowledge, (from, radius_m), budget).await;
+        let passed = covered_in_steps(&reached, radius_m, budget).await;
+        let mut floor = OrderFloor::default();
+        for (is_asked, is_passed) in self.asked.iter().zip(passed.values()) {
+            if *is_asked {
+                floor.asked_m2 += CELL_M * CELL_M;
+                floor.reached_m2 += if *is_passed { CELL_M * CELL_M } else { 0.0 };
+            }
+        }
+        budget.spend(COUNT_WORK * self.asked.len()).await;
+        floor
+    }
+
+    /// What stands between the robot and floor that it would reach otherwise: without it there would be enough.
+    async fn barrier(&self, budget: &mut StepBudget) -> Option<Barrier> {
+        let ReachQuestion { order, home, .. } = self.question;
+        let no_gos = home.annotations().no_go().map(|(_, no_go)| no_go);
+        let all = no_gos.chain(order.avoid());
+        let zones = all.filter(|no_go| no_go.shape() == NoGoShape::Zone);
+        let open = home.forbidding(core::iter::empty(), budget).await;
+        if self.is_enough(&open, budget).await {
+            let without_walls = home.forbidding(zones, budget).await;
+            let is_wall = self.is_enough(&without_walls, budget).await;
+            return Some(if is_wall {
+                Barrier::VirtualWall
+            } else {
+                Barrier::NoGoZone
+            });
+        }
+        let shut = home.avoiding(order.avoid(), budget).await;
+        let doors = home.rooms().doors();
+        let is_in_door = |cell: Cell| doors.iter().any(|door| stands_in(door, cell.middle()));
+        let mut open = shut.clone();
+        home.open_past_floor(&mut open, is_in_door, budget).await;
+        if self.is_enough(&open, budget).await {
+            return Some(Barrier::Door);
+        }
+        let mut open = shut;
+        home.open_past_floor(&mut open, |_| true, budget).await;
+        self.is_enough(&open, budget)
+            .await
+            .then_some(Barrier::NewObstacle)
+    }
+
+    /// What the robot met on a way that `knowledge` holds open: something in a door that leads there, or something elsewhere.
+    async fn met(&self, map: &Map, knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Barrier {
+        let hazards = map.snapshot().hazards;
+        let was_touched = |door: &&Door| {
+            let mut near = hazards.iter();
+            near.any(|hazard| {
+                hazard.at.distance_m(door.at) < REACH.touched_share * door.width_m + REACH.door_m
+            })
+        };
+        for door in map.rooms().doors().iter().filter(was_touched) {
+            let leads_there = !self.is_enough(&with_door_shut(knowledge, door), budget).await;
+            if leads_there {
+                return Barrier::Door;
+            }
+        }
+        Barrier::NewObstacle
+    }
 }
 
 /// What stands between the robot and floor that it would reach otherwise.
@@ -75,59 +266,6 @@ enum Barrier {
 }
 
 impl Barrier {
-    /// The barrier without which `is_enough` holds of the knowledge.
-    fn that(
-        order: &CleaningOrder,
-        map: &Map,
-        is_enough: impl Fn(&Raster<CellKnowledge>) -> bool,
-    ) -> Option<Self> {
-        let zones = || {
-            let all = map.annotations().no_go().map(|(_, no_go)| no_go);
-            all.chain(order.avoid())
-                .filter(|no_go| no_go.shape() == NoGoShape::Zone)
-        };
-        if is_enough(&map.knowledge_forbidding(core::iter::empty())) {
-            let is_wall = is_enough(&map.knowledge_forbidding(zones()));
-            return Some(if is_wall {
-                Self::VirtualWall
-            } else {
-                Self::NoGoZone
-            });
-        }
-        let shut = map.knowledge_avoiding(order.avoid());
-        let doors = map.rooms().doors();
-        let is_in_door = |cell: Cell| doors.iter().any(|door| stands_in(door, cell.middle()));
-        if is_enough(&with_past_floor(map, &shut, is_in_door)) {
-            Some(Self::Door)
-        } else if is_enough(&with_past_floor(map, &shut, |_| true)) {
-            Some(Self::NewObstacle)
-        } else {
-            None
-        }
-    }
-
-    /// What the robot met on a way that `knowledge` holds open: something in a door that leads there, or something elsewhere.
-    fn met(
-        map: &Map,
-        knowledge: &Raster<CellKnowledge>,
-        is_enough: impl Fn(&Raster<CellKnowledge>) -> bool,
-    ) -> Self {
-        let hazards = map.snapshot().hazards;
-        let was_touched = |door: &Door| {
-            let mut near = hazards.iter();
-            near.any(|hazard| {
-                hazard.at.distance_m(door.at) < REACH.touched_share * door.width_m + REACH.door_m
-            })
-        };
-        let leads_there = |door: &Door| !is_enough(&with_door_shut(knowledge, door));
-        let mut doors = map.rooms().doors().iter();
-        if doors.any(|door| was_touched(door) && leads_there(door)) {
-            Self::Door
-        } else {
-            Self::NewObstacle
-        }
-    }
-
     const fn refusal(self) -> JobRefusal {
         match self {
             Self::VirtualWall => JobRefusal::VirtualWallInTheWay,
@@ -166,49 +304,20 @@ fn with_door_shut(knowledge: &Raster<CellKnowledge>, door: &Door) -> Raster<Cell
     shut
 }
 
-/// The knowledge with floor again where something stands now, and floor was before, as far as `is_asked`.
-fn with_past_floor(
-    map: &Map,
-    knowledge: &Raster<CellKnowledge>,
-    is_asked: impl Fn(Cell) -> bool,
-) -> Raster<CellKnowledge> {
-    let mut open = knowledge.clone();
-    map.open_past_floor(&mut open, |open, index| is_asked(open.cell(index)));
-    open
-}
-
 /// Why a job that ends now is not finished: it has swept less than half of what was asked. `None` when it has swept more, and for orders
 /// that are for the edges of rooms only. A first run asks for the floor that it has found.
 pub(crate) fn left_most(order: &CleaningOrder, map: &Map, from: Point2, radius_m: f64) -> Option<Reason> {
     if sweeps_edges_only(order, map) {
         return None;
     }
-    let (mut asked, mut swept) = (0_u32, 0_u32);
-    for cell in asked_cells(order, map) {
-        asked += 1;
-        swept += u32::from(map.is_swept(cell.middle()));
-    }
-    if asked == 0 || f64::from(swept) >= REACH.finished_share * f64::from(asked) {
-        return None;
-    }
-    let reached_m2 =
-        |knowledge: &Raster<CellKnowledge>| floor_of(order, map, knowledge, (from, radius_m)).reached_m2;
-    let [swept_m2, left_m2] = [swept, asked - swept].map(|cells| f64::from(cells) * CELL_M * CELL_M);
-    let shut = map.knowledge_avoiding(order.avoid());
-    let shut_m2 = reached_m2(&shut);
-    let opens_most = |from_m2: f64, to_m2: f64| to_m2 > from_m2 + REACH.finished_share * left_m2;
-    let barrier = if opens_most(swept_m2, shut_m2) {
-        // The map holds the way open, and the robot did not get there. A first run has nothing to compare with.
-        let knows = !order.is_for_whole_home() || map.knows_home();
-        knows.then(|| {
-            Barrier::met(map, &shut, |knowledge| {
-                opens_most(swept_m2, reached_m2(knowledge))
-            })
-        })
-    } else {
-        Barrier::that(order, map, |knowledge| opens_most(shut_m2, reached_m2(knowledge)))
+    let home = &map.home_floor();
+    let question = ReachQuestion {
+        order,
+        home,
+        from,
+        radius_m,
     };
-    Some(barrier.map_or(Reason::MostOutOfReach, Barrier::reason))
+    at_once(question.left_most(map, &mut StepBudget::unlimited()))
 }
 
 /// Whether rooms of the order are swept at their edges only.
@@ -252,31 +361,15 @@ pub(crate) fn is_off_order(order: &CleaningOrder, situation: &Situation<'_>) -> 
     Some(!offsets.into_iter().any(is_ordered))
 }
 
-/// Known floor that is ordered and not forbidden.
-fn asked_cells<'a>(order: &'a CleaningOrder, map: &'a Map) -> impl Iterator<Item = Cell> + 'a {
-    let knowledge = map.knowledge();
-    (0..knowledge.values().len())
-        .filter(move |index| knowledge.values().get(*index) == Some(&CellKnowledge::Free))
-        .map(move |index| knowledge.cell(index))
-        .filter(move |cell| {
-            let mut parts = order.parts().iter();
-            order.is_for_whole_home() || parts.any(|part| map.rooms().is_in_part(*cell, part))
-        })
-}
-
-fn floor_of(
-    order: &CleaningOrder,
-    map: &Map,
-    knowledge: &Raster<CellKnowledge>,
-    (from, radius_m): (Point2, f64),
-) -> OrderFloor {
-    let passed = covered(&reachable(knowledge, from, radius_m), radius_m);
-    let mut floor = OrderFloor::default();
-    for cell in asked_cells(order, map) {
-        floor.asked_m2 += CELL_M * CELL_M;
-        if passed.get(cell) == Some(&true) {
-            floor.reached_m2 += CELL_M * CELL_M;
-        }
+/// Known floor that is ordered and not forbidden: whether each cell of the home's knowledge is, row after row.
+async fn asked_floor(order: &CleaningOrder, home: &HomeFloor, budget: &mut StepBudget) -> Vec<bool> {
+    let cells = home.knowledge().values();
+    if order.is_for_whole_home() {
+        return cells.iter().map(|kind| *kind == CellKnowledge::Free).collect();
     }
-    floor
+    let mut asked = vec![false; cells.len()];
+    for part in order.parts() {
+        home.mark_asked(part, &mut asked, budget).await;
+    }
+    asked
 }

@@ -1,7 +1,7 @@
 //! The floor that a part of an order asks for, and its sweep pattern.
 
 use super::plan::SweepPattern;
-use crate::mapping::{Annotations, Cell, Map, Rooms};
+use crate::mapping::{Annotations, Cell, HomeFloor, Map, Rooms};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::room_settings::Pattern;
 
@@ -19,11 +19,15 @@ pub(crate) struct TargetFloor {
 impl TargetFloor {
     /// The floor of a part of an order; `None` = the whole home.
     pub(crate) fn of(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Self {
-        Self::within(order, part, (map.annotations(), map.rooms()))
+        Self::from_words(order, part, (map.annotations(), map.rooms()))
     }
 
-    /// As [`Self::of`], in a home with these words and rooms.
-    pub(crate) fn within(
+    /// As [`Self::of`], in a home as it was at one moment.
+    pub(crate) fn within(order: &CleaningOrder, part: Option<&HomePart>, home: &HomeFloor) -> Self {
+        Self::from_words(order, part, (home.annotations(), home.rooms()))
+    }
+
+    fn from_words(
         order: &CleaningOrder,
         part: Option<&HomePart>,
         (words, rooms): (&Annotations, &Rooms),

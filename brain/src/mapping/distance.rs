@@ -285,6 +285,42 @@ pub(super) async fn squared_cells(
     cells
 }
 
+/// Whether a source lies within `squared_max` squared cells of each cell of `window`, row after row. Where only that is asked it is found
+/// several times faster than by [`squared_cells`].
+pub(super) async fn near(
+    window: CellBox,
+    is_source: impl Fn(Cell) -> bool,
+    squared_max: i32,
+    budget: &mut StepBudget,
+) -> Vec<bool> {
+    let (width, height) = window.size();
+    let mut near = vec![false; width * height];
+    let mut cells = column_distances(window, is_source, budget).await;
+    let rows = cells.chunks_exact_mut(width.max(1));
+    for (heights, row) in rows.zip(near.chunks_exact_mut(width.max(1))) {
+        heights.iter_mut().for_each(|height| *height *= *height);
+        mark_near(row, heights, squared_max);
+        budget.spend(ENVELOPE_WORK * width).await;
+    }
+    near
+}
+
+/// Marks the cells of a row that have a source so near, from the squared distances along the columns.
+fn mark_near(row: &mut [bool], squared: &[f32], squared_max: i32) {
+    let sideways = (0_usize..row.len()).map(|aside| (aside, aside as f32 * aside as f32));
+    for (aside, aside_squared) in sideways.take_while(|(_, squared)| *squared <= squared_max as f32) {
+        let most = squared_max as f32 - aside_squared;
+        let to_the_right = squared.get(aside..).unwrap_or_default();
+        for (place, there) in row.iter_mut().zip(to_the_right) {
+            *place |= *there <= most;
+        }
+        let beyond = row.get_mut(aside..).unwrap_or_default();
+        for (place, there) in beyond.iter_mut().zip(squared) {
+            *place |= *there <= most;
+        }
+    }
+}
+
 /// Distance in cells to the nearest source in the same column, limited to one more than [`FAR_CELLS`].
 async fn column_distances(
     window: CellBox,

@@ -248,6 +248,21 @@ impl OccupancyGrid {
         evidence.copied().unwrap_or_default()
     }
 
+    /// Smallest pose uncertainty at which a cell was seen, metres; `None` if it never was.
+    pub(super) fn sigma_m(&self, cell: Cell) -> Option<f64> {
+        let evidence = self.at(cell);
+        evidence
+            .has(Flag::Seen)
+            .then(|| 0.01 * f64::from(evidence.sigma_cm))
+    }
+
+    /// Knowledge of a cell as if the flags were clear.
+    pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
+        let mut evidence = self.at(cell);
+        flags.iter().for_each(|flag| evidence.clear(*flag));
+        evidence.knowledge()
+    }
+
     /// Changes the evidence for a cell, unless it is too far away to be stored.
     pub(super) fn change(&mut self, cell: Cell, change: impl FnOnce(&mut Evidence)) {
         let located = locate(cell);

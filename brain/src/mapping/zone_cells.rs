@@ -7,12 +7,21 @@ use crate::model::zone::Zone;
 
 /// Cells of `window` whose centres lie in a zone, row after row.
 pub(super) fn cells_of(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + '_ {
+    cells_around(zone, window).filter(|cell| zone.contains(cell.middle()))
+}
+
+/// Cells of `window` in the bounding box of a zone, row after row.
+pub(super) fn cells_around(zone: &Zone, window: CellBox) -> impl Iterator<Item = Cell> + use<> {
     let (low, high) = around(zone);
-    cells_between(low, high, window).filter(|cell| zone.contains(cell.middle()))
+    cells_between(low, high, window)
 }
 
 /// Cells of a rectangle within `window`, row after row.
-pub(super) fn cells_between(low: Point2, high: Point2, window: CellBox) -> impl Iterator<Item = Cell> {
+pub(super) fn cells_between(
+    low: Point2,
+    high: Point2,
+    window: CellBox,
+) -> impl Iterator<Item = Cell> + use<> {
     let (low, high) = (Cell::under(low), Cell::under(high));
     let columns = low.x.max(window.low.x)..=high.x.min(window.high.x);
     let rows = low.y.max(window.low.y)..=high.y.min(window.high.y);

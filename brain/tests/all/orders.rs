@@ -4,8 +4,8 @@ use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
     BehaviorState, Brain, BrainConfig, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart,
-    Inhibit, JobCommand, JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit,
-    RoomName, RoomPower, RoomSettings, StoredMap, Zone,
+    Inhibit, JobCommand, JobEstimate, JobRefusal, MapEdit, NoGo, NoGoEdit, OrderRefusal, Point2, Pose2,
+    Raster, Reason, RoomEdit, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
@@ -59,9 +59,12 @@ impl Stage {
     }
 
     fn with(config: BrainConfig) -> Self {
-        let room = flat();
-        let mut brain = Brain::with_map(config, 1, &known(&room));
-        let mut world = World::new(room, START);
+        Self::in_home(config, &known(&flat()))
+    }
+
+    fn in_home(config: BrainConfig, home: &StoredMap) -> Self {
+        let mut brain = Brain::with_map(config, 1, home);
+        let mut world = World::new(flat(), START);
         run(&mut world, &mut brain, None, 1.0);
         Self { brain, world }
     }
@@ -249,7 +252,7 @@ fn an_estimate_in_steps_is_the_same_and_whoever_asks_for_it_can_serve_others_in_
         .map(|_| HomePart::Zone(zone((0.2, 0.2), (2.8, 3.8))))
         .collect();
     let order = CleaningOrder::new(parts, 3).unwrap();
-    let mut work = stage.brain.begin_estimate(&order).expect("can be done");
+    let mut work = stage.brain.begin_estimate(&order);
     let (mut steps, mut made) = (0, None);
     while made.is_none() {
         steps += 1;
@@ -257,6 +260,53 @@ fn an_estimate_in_steps_is_the_same_and_whoever_asks_for_it_can_serve_others_in_
     }
     assert_eq!(made, Some(stage.brain.estimate_order(&order)));
     assert!(steps > 16, "at least one for each part: {steps}");
+}
+
+/// The flat with a dock at the left wall.
+fn known_with_dock() -> StoredMap {
+    let dock = Pose2 {
+        x_m: 0.2 - START.x_m,
+        y_m: 2.0 - START.y_m,
+        heading_rad: core::f64::consts::PI,
+    };
+    known(&flat()).with_dock_location(DockLocation::converged(dock))
+}
+
+/// Steps of an estimate and what it says.
+fn steps_of(brain: &Brain, order: &CleaningOrder) -> (u32, Result<JobEstimate, OrderRefusal>) {
+    let mut work = brain.begin_estimate(order);
+    for steps in 1.. {
+        if let Some(made) = work.go_on() {
+            return (steps, made);
+        }
+    }
+    unreachable!("there are more steps than it takes")
+}
+
+#[test]
+fn whether_an_order_can_be_carried_out_is_found_in_steps_as_well() {
+    let mut stage = Stage::in_home(config(), &known_with_dock());
+    let order = CleaningOrder::new(vec![HomePart::Zone(zone((3.5, 0.5), (5.5, 3.5)))], 1).unwrap();
+    let avoid: Vec<NoGo> = (0..16)
+        .map(|place| wall((0.4, 3.0), (0.5 + 0.05 * f64::from(place), 3.4)))
+        .collect();
+    let (plain, _) = steps_of(&stage.brain, &order);
+    let (careful, made) = steps_of(&stage.brain, &order.clone().avoiding(avoid).unwrap());
+    assert!(made.is_ok(), "{made:?}");
+    assert!(
+        careful >= plain + 2,
+        "what is left without the places to avoid is found in steps of its own: {plain}, {careful}"
+    );
+    forbid(&mut stage, in_doorway());
+    let (refused, made) = steps_of(&stage.brain, &order);
+    assert_eq!(
+        made.map_err(|refusal| refusal.reason),
+        Err(JobRefusal::NoGoInTheWay)
+    );
+    assert!(
+        refused > 4,
+        "each barrier is tried in a step of its own: {refused}"
+    );
 }
 
 #[test]
@@ -508,6 +558,7 @@ fn wall(from: (f64, f64), to: (f64, f64)) -> NoGo {
 /// What estimate and admission say of a zone, which must be the same.
 fn judged(brain: &Brain, order: CleaningOrder) -> Result<(), JobRefusal> {
     let estimated = brain.estimate_order(&order).map(|_| ());
+    let estimated = estimated.map_err(|refusal| refusal.reason);
     let admitted = brain.admit(&JobCommand::CleanParts { order });
     assert_eq!(estimated, admitted);
     admitted
@@ -535,8 +586,14 @@ fn estimate_and_admission_are_one_judgement_that_names_what_shuts_floor_off() {
         let mut stage = Stage::new();
         forbid(&mut stage, wall((0.3, 3.2), (0.8, 3.2)));
         forbid(&mut stage, no_go.clone());
+        for place in 1..6 {
+            let x_m = 0.4 * f64::from(place);
+            forbid(&mut stage, wall((x_m, 3.2), (x_m + 0.2, 3.3)));
+        }
         let order = other_room(Vec::new());
-        assert_eq!(stage.brain.no_go_in_the_way(&order), [2]);
+        let told = stage.brain.estimate_order(&order).expect_err("shut off");
+        assert_eq!(told.in_the_way, [2]);
+        assert_eq!(told, stage.brain.order_refusal(refusal, &order));
         assert_eq!(judged(&stage.brain, order), Err(refusal), "{no_go:?}");
         let stage = Stage::new();
         assert_eq!(judged(&stage.brain, other_room(vec![no_go])), Err(refusal));
@@ -573,7 +630,8 @@ fn a_zone_over_a_wall_is_not_what_is_in_the_way() {
     );
     let part = HomePart::Zone(zone((4.0, 0.5), (5.5, 3.5)));
     let order = CleaningOrder::new(vec![part], 1).unwrap();
-    assert_eq!(brain.no_go_in_the_way(&order), []);
+    let asked = brain.order_refusal(JobRefusal::NoGoInTheWay, &order);
+    assert_eq!(asked.in_the_way, []);
     assert_eq!(judged(&brain, order), Err(JobRefusal::RestOutOfReach));
 }
 
@@ -710,13 +768,7 @@ fn a_virtual_wall_drawn_through_the_robot_does_not_end_its_job() {
 
 #[test]
 fn the_way_to_the_dock_stays_open() {
-    let dock = Pose2 {
-        x_m: 0.2 - START.x_m,
-        y_m: 2.0 - START.y_m,
-        heading_rad: core::f64::consts::PI,
-    };
-    let map = known(&flat()).with_dock_location(DockLocation::converged(dock));
-    let brain = Brain::with_map(config(), 1, &map);
+    let brain = Brain::with_map(config(), 1, &known_with_dock());
     let admit = |no_go: NoGo| brain.map().admit(&MapEdit::NoGo(NoGoEdit::Add(no_go)));
     let box_before =
         |near_m: f64, far_m: f64| NoGo::zone(&zone((0.2 + near_m, 1.6), (0.2 + far_m, 2.4))).unwrap();

@@ -17,6 +17,7 @@ use crate::courtesy::{
 };
 use crate::outbox::{Outbox, Stalled};
 use crate::pass::{Change, Judged, Pass};
+use crate::seats::Seat;
 use crate::upstream::{Event, Upstream};
 
 /// A browser that takes longer for one message is dropped.
@@ -41,7 +42,7 @@ const MESSAGES_PER_S_MAX: u32 = 200;
 pub(crate) async fn relay(
     socket: WebSocket,
     (vthal, simulator): (Upstream, Option<Upstream>),
-    pass: Option<Pass>,
+    guest: Guest,
     delivery: Delivery,
 ) {
     let (sink, stream) = socket.split();
@@ -51,7 +52,8 @@ pub(crate) async fn relay(
         shared,
         vthal,
         simulator,
-        pass,
+        pass: guest.pass,
+        seat: guest.seat,
         courtesy: Courtesy::default(),
         budget: Budget::default(),
         heard: Instant::now(),
@@ -65,6 +67,13 @@ pub(crate) async fn relay(
         debug!("vthal went away before the driver's seat could be released; the lease ends by itself");
     }
     writer.abort();
+}
+
+/// Whose browser it is.
+pub(crate) struct Guest {
+    /// None on the robot's own computer, where everything is allowed.
+    pub(crate) pass: Option<Pass>,
+    pub(crate) seat: Arc<Seat>,
 }
 
 /// How a client wants its updates.
@@ -86,6 +95,8 @@ enum Parting {
     NotText,
     Stranger,
     Revoked,
+    /// Somebody else needs the seat more.
+    NoSeat,
 }
 
 impl From<Stalled> for Parting {
@@ -162,6 +173,7 @@ struct Browser {
     simulator: Option<Upstream>,
     /// None on the robot's own computer, where everything is allowed.
     pass: Option<Pass>,
+    seat: Arc<Seat>,
     courtesy: Courtesy,
     budget: Budget,
     heard: Instant,
@@ -201,6 +213,7 @@ impl Browser {
             event = next_of(&mut self.simulator) => self.on_simulator(event),
             change = change_of(&mut self.pass) => self.on_change(change),
             () = shared.failed.notified() => Err(Parting::Stalled),
+            () = self.seat.parting() => Err(Parting::NoSeat),
             _ = pulse.tick() => self.on_pulse(),
             _ = heartbeat.tick() => self.on_heartbeat(),
         }

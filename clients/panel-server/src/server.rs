@@ -29,7 +29,7 @@ use tracing::{debug, error, warn};
 
 use crate::announcement::announce;
 use crate::api::{self, Peer};
-use crate::browser::{self, Delivery};
+use crate::browser::{self, Delivery, Guest};
 use crate::buttons::watch_buttons;
 use crate::download::{self, Wanted};
 use crate::gate::Gate;
@@ -39,7 +39,7 @@ use crate::page;
 use crate::pass::Pass;
 use crate::reset_file;
 use crate::rules::in_authority;
-use crate::seats::{SeatMark, Seats};
+use crate::seats::{Holder, Seat, Seats};
 use crate::upstream::Upstream;
 use crate::write_deadline::WriteDeadline;
 use crate::{Assets, Guard, Rules, Scheme, Settings, StartError};
@@ -285,7 +285,7 @@ async fn accept(listener: TcpListener, tls: Option<Handshakes>, router: Router, 
         match listener.accept().await {
             Ok((stream, peer)) => {
                 let seat = match seats.take(peer.ip()) {
-                    Ok(seat) => seat,
+                    Ok(seat) => Arc::new(seat),
                     Err(reason) => {
                         debug!(%peer, ?reason, "no seat for a connection");
                         continue;
@@ -294,12 +294,12 @@ async fn accept(listener: TcpListener, tls: Option<Handshakes>, router: Router, 
                 let router = router
                     .clone()
                     .layer(Extension(Peer(peer.ip())))
-                    .layer(Extension(seat.mark()));
+                    .layer(Extension(Arc::clone(&seat)));
                 let tls = tls.clone();
                 tokio::spawn(async move {
                     tokio::select! {
                         () = welcome(stream, tls, router) => {}
-                        () = seat.parting() => debug!(%peer, "a stranger leaves for somebody else"),
+                        () = seat.parting() => debug!(%peer, "leaves for somebody else"),
                     }
                 });
                 // Whoever was taken in is served before the next one is.
@@ -367,10 +367,10 @@ async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> R
 
 /// Asks the gate, where there is one.
 async fn admit(site: &Site, mut request: Request, next: Next) -> Response<Body> {
-    let mark = request.extensions().get::<SeatMark>().cloned();
-    let is_known = || mark.iter().for_each(SeatMark::is_known);
+    let seat = request.extensions().get::<Arc<Seat>>().cloned();
+    let belongs_to = |holder| seat.iter().for_each(|seat| seat.belongs_to(holder));
     let Some(gate) = &site.gate else {
-        is_known();
+        belongs_to(Holder::Local);
         return next.run(request).await;
     };
     let known = gate.guarded.identify(request.headers());
@@ -378,7 +378,7 @@ async fn admit(site: &Site, mut request: Request, next: Next) -> Response<Body> 
         return known.map_or_else(api::not_paired, |known| api::not_allowed(known.role));
     }
     if let Some(known) = known {
-        is_known();
+        belongs_to(Holder::Device(known.id));
         request.extensions_mut().insert(known);
     }
     next.run(request).await
@@ -441,7 +441,7 @@ fn trust_file(gate: &Gate, path: &str) -> Option<Response<Body>> {
 
 async fn open_socket(
     State(site): State<Arc<Site>>,
-    known: Option<Extension<Known>>,
+    (known, Extension(seat)): (Option<Extension<Known>>, Extension<Arc<Seat>>),
     uri: Uri,
     upgrade: WebSocketUpgrade,
 ) -> Response<Body> {
@@ -459,7 +459,7 @@ async fn open_socket(
     upgrade
         .max_message_size(MESSAGE_BYTES_MAX)
         .max_frame_size(MESSAGE_BYTES_MAX)
-        .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, delivery))
+        .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), Guest { pass, seat }, delivery))
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Why a request is refused: a name for programs, and a sentence for people that says what was wrong, where, and what to
 //! do.
 
-use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, JobRefusal, NoGoShape};
+use brain::{
+    Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, JobRefusal, NoGoShape, OrderRefusal,
+};
 use rvac_api::{Explanation, explain};
 
 /// Why a request is refused, by name.
@@ -98,10 +100,10 @@ impl Refusal {
     }
 
     /// No-go zones and virtual walls shut floor off; the sentence names those that do so alone.
-    fn in_the_way(refusal: JobRefusal, numbers: &[u16], brain: &Brain) -> Self {
+    fn in_the_way(refusal: &OrderRefusal, brain: &Brain) -> Self {
         let no_gos = brain.map().annotations().no_go();
         let named: Vec<String> = no_gos
-            .filter(|(number, _)| numbers.contains(number))
+            .filter(|(number, _)| refusal.in_the_way.contains(number))
             .map(|(number, no_go)| {
                 let kind = match no_go.shape() {
                     NoGoShape::Zone => "no-go zone",
@@ -111,7 +113,7 @@ impl Refusal {
                 format!("the {kind} {number}{}", name.unwrap_or_default())
             })
             .collect();
-        let plain = Self::from(refusal);
+        let plain = Self::from(refusal.reason);
         if named.is_empty() {
             return plain;
         }
@@ -122,21 +124,21 @@ impl Refusal {
     }
 
     /// What is wrong with an order that the brain refuses.
-    pub(crate) fn of_order(refusal: JobRefusal, order: &CleaningOrder, brain: &Brain) -> Self {
+    pub(crate) fn of_order(refusal: &OrderRefusal, order: &CleaningOrder, brain: &Brain) -> Self {
         let rooms = brain.map().rooms().rooms();
         let is_missing = |part: &brain::HomePart| match part {
             brain::HomePart::Room(id) if rooms.iter().all(|room| room.id != *id) => Some(*id),
             _ => None,
         };
-        match (refusal, order.parts().iter().find_map(is_missing)) {
+        match (refusal.reason, order.parts().iter().find_map(is_missing)) {
             (JobRefusal::Order(EditError::NoSuchRoom), Some(room)) => Self::no_such_room(room, brain),
             (JobRefusal::Order(EditError::NoFloorThere), _) => {
                 Self::no_floor_there("in one of the zones and spots", brain)
             }
             (JobRefusal::NoGoInTheWay | JobRefusal::VirtualWallInTheWay, _) => {
-                Self::in_the_way(refusal, &brain.no_go_in_the_way(order), brain)
+                Self::in_the_way(refusal, brain)
             }
-            _ => Self::from(refusal),
+            (reason, _) => Self::from(reason),
         }
     }
 }

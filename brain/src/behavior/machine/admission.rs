@@ -3,9 +3,10 @@
 use super::manual::ManualDrive;
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
-use crate::coverage;
+use crate::coverage::ReachQuestion;
 use crate::mapping::Map;
 use crate::model::command::{JobCommand, StrategyName};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::CleaningOrder;
 use crate::model::pose_estimate::PoseEstimate;
@@ -113,14 +114,20 @@ impl Behavior {
         (kind, order): (JobKind, &CleaningOrder),
         (map, estimate): (&Map, PoseEstimate),
     ) -> Result<(), JobRefusal> {
-        map.admit_order(order)?;
+        let (home, budget) = (&map.home_floor(), &mut StepBudget::unlimited());
+        at_once(home.admit_order(order, budget))?;
         self.admit_job(kind, order)?;
         // A robot that does not know its place does not know what it can reach from there.
         if !estimate.is_sure() {
             return Ok(());
         }
-        let from = estimate.pose.position();
-        coverage::admit_reach(order, map, from, self.config.body.radius_m)
+        let question = ReachQuestion {
+            order,
+            home,
+            from: estimate.pose.position(),
+            radius_m: self.config.body.radius_m,
+        };
+        at_once(question.admit(budget))
     }
 
     fn admit_dock(&self) -> Result<(), JobRefusal> {

@@ -24,6 +24,7 @@ use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
+pub(super) use painting::without_no_go;
 use settling::KnownHome;
 pub(crate) use settling::PlaceTrust;
 pub(super) use settling::RunSoFar;
@@ -227,13 +228,6 @@ impl HomeMap {
 
     pub(super) fn knowledge(&self) -> &Raster<CellKnowledge> {
         &self.derived.knowledge
-    }
-
-    /// Knowledge of a cell as if the flags were clear.
-    pub(super) fn knowledge_without(&self, cell: Cell, flags: &[Flag]) -> CellKnowledge {
-        let mut evidence = self.grid.at(cell);
-        flags.iter().for_each(|flag| evidence.clear(*flag));
-        evidence.knowledge()
     }
 
     /// Records a visible change.

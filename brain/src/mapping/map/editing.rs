@@ -7,16 +7,14 @@ use crate::mapping::annotations::NAMES_MAX;
 use crate::mapping::home::Access;
 use crate::mapping::occupancy_grid::{CellBox, Flag};
 use crate::mapping::zone_cells::{cells_between, cells_of};
-use crate::mapping::{Annotations, CELL_M, Cell, CellKnowledge, Raster, reachable};
+use crate::mapping::{Annotations, CellKnowledge};
 use crate::model::edit_error::EditError;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::map_edit::NoGoEdit;
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::room_settings::RoomSettings;
 use crate::model::zone::{COORDINATE_MAX_M, Zone};
-
-/// Length of the strip in front of the dock that must stay open, cells: from its end the robot can drive in.
-const DOCK_STRIP_CELLS: u32 = 32;
 
 impl Map {
     pub(super) fn admit_no_go_edit(&self, edit: &NoGoEdit) -> Result<(), EditError> {
@@ -56,56 +54,9 @@ impl Map {
     }
 
     /// Whether there is floor that `no_go` forbids, and the dock stays within reach.
-    pub(crate) fn may_forbid(&self, no_go: &NoGo) -> Result<(), EditError> {
-        if self.knowledge().values().is_empty() {
-            return Err(EditError::NoMap);
-        }
-        let knowledge = self.knowledge();
-        let is_floor = |cell: Cell| {
-            let kind = knowledge.get(cell);
-            matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
-        };
-        let window = self.home.bounds().ok_or(EditError::NoMap)?;
-        if !cells_of(no_go.area(), window).any(is_floor) {
-            return Err(EditError::NoFloorThere);
-        }
-        let radius_m = self.home.sensor_model.body.radius_m;
-        match self.dock() {
-            Some(dock) => self.keeps_way_to_dock(no_go.area(), dock, radius_m),
-            None => Ok(()),
-        }
-    }
-
-    /// Whether the dock can still be reached with this zone: the strip in front of it stays open, and so does the way from there to most
-    /// of the floor that is within reach now.
-    fn keeps_way_to_dock(&self, zone: &Zone, dock: Pose2, radius_m: f64) -> Result<(), EditError> {
-        let ahead = |front_m: f64| {
-            dock.transform(Point2 {
-                x_m: -front_m,
-                y_m: 0.0,
-            })
-        };
-        let is_in_strip = |step: u32| zone.distance_m(ahead(f64::from(step) * CELL_M)) < radius_m;
-        if (0..=DOCK_STRIP_CELLS).any(is_in_strip) {
-            return Err(EditError::DockInside);
-        }
-        let before = ahead(f64::from(DOCK_STRIP_CELLS) * CELL_M);
-        let floor = |knowledge: &Raster<CellKnowledge>| {
-            let reached = reachable(knowledge, before, radius_m);
-            reached.values().iter().filter(|is| **is).count()
-        };
-        let mut with_zone = self.knowledge().clone();
-        let window = self.home.bounds().ok_or(EditError::NoMap)?;
-        for cell in cells_of(zone, window) {
-            if let Some(kind) = with_zone.get_mut(cell) {
-                *kind = CellKnowledge::NoGo;
-            }
-        }
-        // Two fifths: a wall that keeps one of two rooms of a size is a wish, not a mistake.
-        if 5 * floor(&with_zone) < 2 * floor(self.knowledge()) {
-            return Err(EditError::DockShutOff);
-        }
-        Ok(())
+    fn may_forbid(&self, no_go: &NoGo) -> Result<(), EditError> {
+        let no_gos = core::slice::from_ref(no_go);
+        at_once(self.home_floor().may_forbid(no_gos, &mut StepBudget::unlimited()))
     }
 
     /// Adds a no-go zone or virtual wall, which no planned path enters.

@@ -1,8 +1,8 @@
 //! Floor that people have forbidden, and floor around it.
 
 use super::Map;
+use crate::mapping::home_floor::forbid;
 use crate::mapping::reach::passable;
-use crate::mapping::zone_cells::cells_of;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
@@ -17,31 +17,8 @@ impl Map {
 
     /// The knowledge with cells to avoid in a job as no-go cells.
     pub(crate) fn knowledge_avoiding(&self, avoid: &[NoGo]) -> Raster<CellKnowledge> {
-        self.with_no_go(self.knowledge().clone(), avoid.iter())
-    }
-
-    /// The knowledge as if these alone were forbidden.
-    pub(crate) fn knowledge_forbidding<'a>(
-        &self,
-        forbidden: impl Iterator<Item = &'a NoGo>,
-    ) -> Raster<CellKnowledge> {
-        let open = self.home.knowledge_without_no_go();
-        self.with_no_go(open.unwrap_or_else(|| self.knowledge().clone()), forbidden)
-    }
-
-    fn with_no_go<'a>(
-        &self,
-        mut knowledge: Raster<CellKnowledge>,
-        forbidden: impl Iterator<Item = &'a NoGo>,
-    ) -> Raster<CellKnowledge> {
-        let Some(window) = self.home.bounds() else {
-            return knowledge;
-        };
-        for cell in forbidden.flat_map(|no_go| cells_of(no_go.area(), window)) {
-            if let Some(kind) = knowledge.get_mut(cell) {
-                *kind = CellKnowledge::NoGo;
-            }
-        }
+        let mut knowledge = self.knowledge().clone();
+        at_once(forbid(&mut knowledge, avoid.iter(), &mut StepBudget::unlimited()));
         knowledge
     }
 

@@ -1,8 +1,11 @@
 //! The map's view of the home.
 
+use std::sync::Arc;
+
 use super::{LoadedHome, Map};
 use crate::mapping::home::HomeMap;
-use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
+use crate::mapping::home_floor::{EarlierFloor, HomeFloor};
+use crate::mapping::occupancy_grid::Flag;
 use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
 use crate::mapping::walls::walls;
@@ -15,24 +18,6 @@ use crate::model::gradual::{StepBudget, at_once};
 use crate::model::known_beacon::KnownBeacon;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
-
-/// The pose uncertainty at which cells were seen.
-#[derive(Debug)]
-pub(crate) struct Sigmas(OccupancyGrid);
-
-impl Sigmas {
-    /// As [`Map::sigma_m`].
-    pub(crate) fn at_m(&self, cell: Cell) -> Option<f64> {
-        sigma_m(&self.0, cell)
-    }
-}
-
-fn sigma_m(grid: &OccupancyGrid, cell: Cell) -> Option<f64> {
-    let evidence = grid.at(cell);
-    evidence
-        .has(Flag::Seen)
-        .then(|| 0.01 * f64::from(evidence.sigma_cm))
-}
 
 impl Map {
     /// Adds an observation at a pose. Observations of a robot that is lost, lifted or without a link are ignored, and so are
@@ -218,12 +203,22 @@ impl Map {
     /// Smallest pose uncertainty at which a cell was seen, metres; `None` if it never was.
     #[must_use]
     pub fn sigma_m(&self, cell: Cell) -> Option<f64> {
-        sigma_m(&self.home.grid, cell)
+        self.home.grid.sigma_m(cell)
     }
 
-    /// The same as it is now, for work that goes on while the map changes. A copy shares its cells with the map.
-    pub(crate) fn sigmas(&self) -> Sigmas {
-        Sigmas(self.home.grid.clone())
+    /// The floor as it is now, for judgements that go on while the map changes.
+    pub(crate) fn home_floor(&self) -> HomeFloor {
+        let home = &self.home;
+        HomeFloor {
+            knowledge: self.knowledge().clone(),
+            grid: home.grid.clone(),
+            kept: home.known.as_ref().map(|known| Arc::clone(&known.kept)),
+            words: home.annotations.clone(),
+            rooms: home.rooms.clone(),
+            dock: self.dock(),
+            radius_m: home.sensor_model.body.radius_m,
+            forbids_cells: home.forbids_cells(),
+        }
     }
 
     /// Whether the body was in a cell, in this run or an earlier one.
@@ -236,13 +231,6 @@ impl Map {
         self.home.known.is_some()
     }
 
-    /// Whether a cell was floor before this run, or the body was in it.
-    fn was_floor(&self, cell: Cell) -> bool {
-        let known = self.home.known.as_ref();
-        known.is_some_and(|known| known.kept.at(cell).knowledge() == CellKnowledge::Free)
-            || self.was_driven(cell)
-    }
-
     /// Cells that were floor become free where `is_asked` of the knowledge so far and their index, whether they are occupied now or in
     /// dispute. Walls were none, and cliffs and no-go zones stay.
     pub(crate) fn open_past_floor(
@@ -250,18 +238,12 @@ impl Map {
         knowledge: &mut Raster<CellKnowledge>,
         is_asked: impl Fn(&Raster<CellKnowledge>, usize) -> bool,
     ) {
+        let past = EarlierFloor {
+            grid: &self.home.grid,
+            kept: self.home.known.as_ref().map(|known| &*known.kept),
+        };
         for index in 0..knowledge.values().len() {
-            let is_met = matches!(
-                knowledge.values().get(index),
-                Some(CellKnowledge::Occupied | CellKnowledge::Unknown)
-            );
-            if is_met
-                && is_asked(knowledge, index)
-                && self.was_floor(knowledge.cell(index))
-                && let Some(kind) = knowledge.values_mut().get_mut(index)
-            {
-                *kind = CellKnowledge::Free;
-            }
+            past.open(knowledge, index, &is_asked);
         }
     }
 

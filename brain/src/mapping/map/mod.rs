@@ -14,7 +14,6 @@ mod room_editing;
 mod saving;
 
 pub use confidence::MapConfidence;
-pub(crate) use known_home::Sigmas;
 pub use loader::{LoadedHome, MapLoader};
 pub use saving::MapWriter;
 

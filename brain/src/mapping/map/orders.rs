@@ -1,8 +1,9 @@
 //! Orders in this map: the floor of their parts, and the settings of their rooms.
 
 use super::Map;
-use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
+use crate::mapping::{Annotations, Cell, Rooms};
 use crate::model::edit_error::EditError;
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
 use crate::model::room_settings::{Pattern, RoomSettings};
 
@@ -50,24 +51,7 @@ impl Annotations {
 
 impl Map {
     /// Whether the map holds what is ordered.
-    pub(crate) fn admit_order(&self, order: &CleaningOrder) -> Result<(), EditError> {
-        let knowledge = self.knowledge();
-        let has_floor = |part: &HomePart| {
-            (0..knowledge.values().len())
-                .filter(|index| knowledge.values().get(*index) == Some(&CellKnowledge::Free))
-                .any(|index| self.rooms().is_in_part(knowledge.cell(index), part))
-        };
-        for part in order.parts() {
-            match part {
-                HomePart::Room(id) if self.rooms().rooms().iter().all(|room| room.id != *id) => {
-                    return Err(EditError::NoSuchRoom);
-                }
-                HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => {
-                    return Err(EditError::NoFloorThere);
-                }
-                _ => {}
-            }
-        }
-        order.avoid().iter().try_for_each(|no_go| self.may_forbid(no_go))
+    pub(super) fn admit_order(&self, order: &CleaningOrder) -> Result<(), EditError> {
+        at_once(self.home_floor().admit_order(order, &mut StepBudget::unlimited()))
     }
 }

@@ -72,6 +72,38 @@ async fn a_device_is_paired_drives_and_is_shut_out() {
     assert_eq!(rig.get("/api/session", &cookie).await.status, 401);
 }
 
+/// WebSockets that one device opens; a page has one.
+const GREEDY: usize = 40;
+/// As many connections may it have.
+const OF_DEVICE_MAX: usize = 16;
+
+#[tokio::test]
+async fn one_device_has_its_share_of_connections_and_stop_of_another_comes_through() {
+    let rig = Rig::start().await;
+    let (greedy, phone) = (rig.pair(Role::View).await, rig.pair(Role::Drive).await);
+    for _ in 0..4 {
+        rig.daemon().await; // Beeps.
+    }
+    let (mut sockets, mut daemons) = (Vec::new(), Vec::new());
+    for _ in 0..GREEDY {
+        sockets.push(rig.socket(&greedy).await);
+        daemons.push(rig.daemon().await);
+    }
+    for socket in &mut sockets[..GREEDY - OF_DEVICE_MAX] {
+        socket.until_ended().await;
+    }
+    // Each had asked for its session on a connection of its own, which may end a moment later.
+    let newest = GREEDY - OF_DEVICE_MAX + 2;
+    for (socket, daemon) in sockets.iter_mut().zip(&mut daemons).skip(newest) {
+        socket.say(r#"{"id":1,"c":"watch","topics":["status"]}"#).await;
+        assert!(daemon.hear().await.is_some(), "its newest stay");
+    }
+    let mut socket = rig.socket(&phone).await;
+    let mut daemon = rig.daemon().await;
+    socket.say(r#"{"id":1,"c":"stop"}"#).await;
+    assert_eq!(daemon.hear().await.unwrap(), r#"{"c":"stop","id":1}"#);
+}
+
 #[tokio::test]
 async fn devices_are_remembered_and_everybody_hears_of_a_new_one() {
     let mut rig = Rig::start().await;

@@ -1,6 +1,6 @@
 //! Orders of clients for parts of the home: read, admitted and estimated.
 
-use brain::{Brain, CleaningOrder, EstimateWork, JobCommand};
+use brain::{Brain, CleaningOrder, EstimateWork, JobCommand, OrderRefusal};
 use rvac_api::{JobEstimate, JobOrder, Update};
 
 use super::home::{known_home, with_places};
@@ -24,7 +24,11 @@ pub(crate) fn clean_command(
     let command = JobCommand::CleanParts { order: order.clone() };
     match brain.admit(&command) {
         Ok(()) => Ok(command),
-        Err(reason) => Err(Refusal::of_order(reason, &order, brain)),
+        Err(reason) => Err(Refusal::of_order(
+            &brain.order_refusal(reason, &order),
+            &order,
+            brain,
+        )),
     }
 }
 
@@ -54,17 +58,15 @@ pub(crate) struct EstimatedJob {
 }
 
 impl EstimatedJob {
-    /// Begins to find out what such a job will take. Planning the whole order takes tens of milliseconds, so it is done in steps; and the
-    /// robot must rest when it begins.
+    /// Begins to find out what such a job will take, and whether the brain would refuse the order. Both take tens of milliseconds, so they
+    /// are done in steps; and the robot must rest when they begin.
     ///
     /// # Errors
-    /// A job runs, or the brain would refuse the order.
+    /// As [`estimable`].
     pub(crate) fn begin(order: &JobOrder, brain_session: Option<&BrainSession>) -> Result<Self, Refusal> {
         let (brain, order) = estimable(order, brain_session)?;
-        match brain.begin_estimate(&order) {
-            Ok(work) => Ok(Self { order, work }),
-            Err(reason) => Err(Refusal::of_order(reason, &order, brain)),
-        }
+        let work = brain.begin_estimate(&order);
+        Ok(Self { order, work })
     }
 
     /// Does the next step. Must not be called again after it returned what the job takes, or why it cannot be done.
@@ -74,9 +76,9 @@ impl EstimatedJob {
         brain_session: Option<&BrainSession>,
     ) -> Option<Result<Update, Refusal>> {
         let found = self.work.go_on()?;
-        let refused = |reason| match brain_session {
-            Some(brain_session) => Refusal::of_order(reason, &self.order, brain_session.brain()),
-            None => Refusal::from(reason),
+        let refused = |refusal: OrderRefusal| match brain_session {
+            Some(brain_session) => Refusal::of_order(&refusal, &self.order, brain_session.brain()),
+            None => Refusal::from(refusal.reason),
         };
         Some(found.map_err(refused).map(|found| {
             Update::JobEstimate(JobEstimate {
