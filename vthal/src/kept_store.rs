@@ -204,7 +204,8 @@ impl KeptStore {
     /// # Errors
     /// What the file system says.
     pub fn keep_home(&self, kept: &FloorHome) -> io::Result<()> {
-        self.0.floors.maps(kept.floor).save(&kept.home)
+        let maps = self.0.floors.maps(kept.floor);
+        maps.save_after(&kept.home, kept.trial)
     }
 
     /// Keeps the loads of motors.

@@ -2,6 +2,7 @@
 
 use core::task::Poll;
 
+use super::Brain;
 use crate::behavior::JobCheckpoint;
 use crate::localization::TrackingCheckpoint;
 use crate::mapping::{Hazard, PathPoint, StoredMap, SweptRun};
@@ -9,6 +10,7 @@ use crate::model::energy::EnergyModel;
 use crate::model::geometry::Pose2;
 use crate::model::gradual::Gradual;
 use crate::model::learnt::{GyroLearnt, Learnt};
+use crate::model::map_doubt::MapDoubt;
 
 /// State of a brain that can be taken up again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +37,8 @@ pub struct Checkpoint {
     pub gyro: Option<GyroLearnt>,
     /// State of localization in the map of the home; `None` = odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
+    /// Why the map of the home is doubted in this run; `None` = it is not.
+    pub map_doubt: Option<MapDoubt>,
 }
 
 /// A checkpoint in the making: copying the home takes several steps.
@@ -69,6 +73,34 @@ impl Checkpoint {
             energy: if is_new { self.energy } else { learnt.energy },
             ..self
         }
+    }
+}
+
+impl Brain {
+    /// As [`Self::checkpoint_without_home`], for a run that begins now. A robot on its dock that has just completed the first map of its
+    /// home gets the dock's pose in that map, and localizes in the map from then on, as after a restart. Each run judges the map anew.
+    #[must_use]
+    pub fn checkpoint_for_next_run(&self) -> Checkpoint {
+        let present = Checkpoint {
+            map_doubt: None,
+            ..self.checkpoint_without_home()
+        };
+        match self.dock_of_new_map() {
+            Some(pose) => Checkpoint {
+                pose,
+                tracking: Some(self.localization.tracking_on_dock()),
+                ..present
+            },
+            None => present,
+        }
+    }
+
+    /// Pose of a docked robot in a map that it has just completed and does not localize in yet.
+    fn dock_of_new_map(&self) -> Option<Pose2> {
+        let dock = self.map.dock_location();
+        let has_new_map = self.behavior.has_covered_home() && self.map_agreement().is_none();
+        let is_on_dock = self.localization.is_docked() && !dock.is_reported();
+        dock.pose().filter(|_| has_new_map && is_on_dock)
     }
 }
 

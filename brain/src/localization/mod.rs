@@ -10,6 +10,7 @@ mod beacons;
 mod calibration;
 mod candidates;
 mod confidence;
+mod dead_reckoning;
 mod drift;
 mod floor_blocks;
 mod global_localizer;

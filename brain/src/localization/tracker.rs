@@ -11,6 +11,7 @@ use parameters::{SEARCH, TRACKING};
 use super::beacons::LocatedRange;
 use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
+use super::dead_reckoning::DeadReckoning;
 use super::drift::{ODOMETRY_NOISE, turn_variance};
 use super::floor_blocks::FloorBlocks;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
@@ -39,6 +40,8 @@ pub(super) const SENSORS_MIN: usize = 3;
 /// Number of informative beams after which a found pose counts as confirmed. Until then it must not lie in unknown space: global
 /// localization searches known space only, and a wrong pose leads out of it soon.
 pub(super) const CONFIRMATION_BEAMS: u32 = 200;
+/// Dead reckoning that is this far from the particles contradicts them, metres: several times its error.
+const CONTRADICTION_M: f64 = 0.5;
 
 /// The motion of a step, and the estimate.
 #[derive(Clone, Copy, Debug)]
@@ -94,6 +97,7 @@ pub(super) struct Tracker {
     unconfirmed: u32,
     /// It competes with other storeys, so contradictions of its map must not be explained away.
     competes: bool,
+    dead_reckoning: DeadReckoning,
     /// What the map predicts beside what is met.
     map_check: MapCheck,
     radius_m: f64,
@@ -122,6 +126,7 @@ impl Tracker {
             since_found: BeamScore::default(),
             unconfirmed: 0,
             competes: false,
+            dead_reckoning: DeadReckoning::default(),
             map_check: MapCheck::default(),
             radius_m,
             layout,
@@ -151,6 +156,12 @@ impl Tracker {
         // A person who has placed it there does not carry it away.
         self.lift.settle();
         self.lost = false;
+    }
+
+    /// The robot is on its dock, whose place is known.
+    pub(super) fn place_on_dock(&mut self, dock: Pose2, spread: PoseSpread) {
+        self.place_at(dock, spread.sigma_m, spread.sigma_rad);
+        self.dead_reckoning.begin_at(dock);
     }
 
     /// Only a person says where the robot is. Until so many informative beams have confirmed it, the pose must not lie in unknown
@@ -265,7 +276,9 @@ impl Tracker {
             ..
         } = advance.onsets;
         self.lift.update(observation, advance);
+        self.dead_reckoning.follow(advance, moved.gyro);
         if self.lift.is_put_down() {
+            self.dead_reckoning.end();
             self.history.forget();
             self.lose(pose);
             return Some(self.estimate());
@@ -300,14 +313,30 @@ impl Tracker {
         };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
-        if self.lost {
+        let estimate = if self.lost {
             let map = &Whole(map);
             self.filter.weigh(map, observation, &measurements);
-            Some(self.search(map, pose))
+            self.search(map, pose)
         } else {
             self.filter.weigh(map, observation, &measurements);
-            Some(self.judge(map))
-        }
+            self.judge(map)
+        };
+        self.check_map(map, estimate.pose);
+        Some(estimate)
+    }
+
+    /// Compares what is met with the map, where the robot is by the particles, or by dead reckoning where that contradicts them or they
+    /// do not know: a wrong map must not choose the place at which it is tested.
+    fn check_map(&mut self, map: &impl Surroundings, by_particles: Pose2) {
+        let is_settled = self.is_settled();
+        let reckoned = self.dead_reckoning.pose().filter(|reckoned| {
+            let apart_m = reckoned.position().distance_m(by_particles.position());
+            !is_settled || apart_m > CONTRADICTION_M
+        });
+        let Some(pose) = reckoned.or(is_settled.then_some(by_particles)) else {
+            return;
+        };
+        self.map_check.take(map, &self.filter.compared(map, pose));
     }
 
     /// Particles hold what they have learned only while the pose is known.
@@ -325,10 +354,6 @@ impl Tracker {
         let estimate = self.filter.estimate();
         let score = self.filter.score(map, estimate.pose);
         self.since_found = self.since_found.and(score);
-        if self.is_settled() {
-            self.map_check
-                .take(map, &self.filter.compared(map, estimate.pose));
-        }
         if self.unconfirmed > 0 {
             let score = self.filter.score(&Whole(map), estimate.pose);
             self.unconfirmed = self.unconfirmed.saturating_sub(score.informative);

@@ -813,10 +813,24 @@ fn what_the_robot_thinks() {
         kept_s: 1_700_000_000,
         area_m2: 12.5,
         rooms: 3,
+        doubted: false,
+        last_good: false,
     }];
+    let marked = KeptMap {
+        doubted: true,
+        last_good: true,
+        ..maps[0]
+    };
     check(
         &Update::Maps { floor: Some(2), maps },
         r#"{"e":"maps","floor":2,"maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
+    );
+    check(
+        &Update::Maps {
+            floor: None,
+            maps: vec![marked],
+        },
+        r#"{"e":"maps","maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3,"doubted":true,"last_good":true}]}"#,
     );
     check(
         &Update::Mixes {

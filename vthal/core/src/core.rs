@@ -168,7 +168,11 @@ impl Core {
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
             Input::MapRestored { floor, number, home } => {
-                let kept = FloorHome { floor, home };
+                let kept = FloorHome {
+                    floor,
+                    home,
+                    trial: None,
+                };
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
                 let (restored, session) = (RestoredMap { number, kept }, self.brain_session.as_mut());
                 self.floors.map_restored(&restored, session, &mut teller);
@@ -267,7 +271,7 @@ impl Core {
             if self.config.checkpoints == Checkpoints::On {
                 outputs.checkpoint = Some(checkpoint_without_job(brain_session));
             }
-            outputs.home = brain_session.home_to_keep();
+            outputs.home = brain_session.home_left();
             let mut recorder = Recorder::new(self.config.recording, outputs);
             brain_session.end_run(now_us, RunEnd::Shutdown, &mut recorder);
         }

@@ -1,6 +1,6 @@
 //! What the shell must perform.
 
-use brain::{Actions, Command, Observation, RoomName, StoredMap};
+use brain::{Actions, Command, MapTrial, Observation, RoomName, StoredMap};
 use rvac_api::{
     CalibrationAnswer, DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update,
 };
@@ -195,6 +195,8 @@ pub struct FloorHome {
     pub floor: u16,
     /// What is known of it.
     pub home: StoredMap,
+    /// What the run that leaves it has shown of the map with which it began.
+    pub trial: Option<MapTrial>,
 }
 
 /// Something that the shell does with the floors that are kept: it says what they are then with

@@ -3,8 +3,8 @@
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Hazard, HazardKind, PathPoint, SweptRun};
 use brain::{
-    Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, StrategyName,
-    TrackingCheckpoint,
+    Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, MapDoubt,
+    StrategyName, TrackingCheckpoint,
 };
 use serde::{Deserialize, Serialize};
 use vthal_core::stored_map;
@@ -40,6 +40,9 @@ pub struct BrainState {
     /// Shares of the charge that a second of cleaning and of driving takes, and the seconds from which that was learnt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<[f64; 3]>,
+    /// Why the map of the home is doubted; absent = it is not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    map_doubt: Option<String>,
 }
 
 fn is_zero(value: &u32) -> bool {
@@ -115,6 +118,7 @@ impl From<&Checkpoint> for BrainState {
             energy: Some(checkpoint.energy)
                 .filter(|energy| energy.seen_s > 0.0)
                 .map(|energy| [energy.cleaning_per_s, energy.driving_per_s, energy.seen_s]),
+            map_doubt: checkpoint.map_doubt.map(|doubt| doubt.name().to_owned()),
         }
     }
 }
@@ -132,7 +136,12 @@ impl BrainState {
             None => None,
             Some(text) => Some(stored_map::decode(&from_hex(text)?).ok()?),
         };
+        let map_doubt = match &self.map_doubt {
+            None => None,
+            Some(name) => Some(MapDoubt::from_name(name)?),
+        };
         Some(Checkpoint {
+            map_doubt,
             pose: Pose2 {
                 x_m,
                 y_m,
@@ -292,7 +301,7 @@ impl JobState {
 mod tests {
     use brain::{
         Cell, CellKnowledge, Checkpoint, CleaningOrder, EnergyModel, HomePart, JobCheckpoint, JobFigures,
-        JobKind, Pose2, Raster, StoredMap, StrategyName, TrackingCheckpoint,
+        JobKind, MapDoubt, Pose2, Raster, StoredMap, StrategyName, TrackingCheckpoint,
     };
 
     use super::{BrainState, from_hex, to_hex};
@@ -322,6 +331,7 @@ mod tests {
                 driving_per_s: 1e-4,
                 seen_s: 300.0,
             },
+            map_doubt: Some(MapDoubt::MetNotMapped),
             ..Checkpoint::default()
         };
         let text = serde_json::to_string(&BrainState::from(&checkpoint)).expect("plain");
