@@ -24,6 +24,7 @@ mod known_storeys;
 mod lift;
 mod line_slam;
 mod localizer;
+mod lost_share;
 #[cfg(test)]
 mod many_runs;
 mod map_check;

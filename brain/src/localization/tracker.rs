@@ -17,6 +17,7 @@ use super::floor_blocks::FloorBlocks;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
+use super::lost_share::LostShare;
 use super::map_check::MapCheck;
 use super::odometry::Odometry;
 use super::particles::{
@@ -26,6 +27,7 @@ use super::rssi_fingerprint::{FingerprintMap, FingerprintMatcher, RssiFingerprin
 use super::scan_history::ScanHistory;
 use super::standstill::Standstill;
 use crate::model::advance::Advance;
+use crate::model::map_doubt::MapDoubt;
 use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
 
@@ -98,6 +100,7 @@ pub(super) struct Tracker {
     /// It competes with other storeys, so contradictions of its map must not be explained away.
     competes: bool,
     dead_reckoning: DeadReckoning,
+    lost_share: LostShare,
     /// What the map predicts beside what is met.
     map_check: MapCheck,
     radius_m: f64,
@@ -127,6 +130,7 @@ impl Tracker {
             unconfirmed: 0,
             competes: false,
             dead_reckoning: DeadReckoning::default(),
+            lost_share: LostShare::default(),
             map_check: MapCheck::default(),
             radius_m,
             layout,
@@ -162,6 +166,7 @@ impl Tracker {
     pub(super) fn place_on_dock(&mut self, dock: Pose2, spread: PoseSpread) {
         self.place_at(dock, spread.sigma_m, spread.sigma_rad);
         self.dead_reckoning.begin_at(dock);
+        self.lost_share.begin();
     }
 
     /// Only a person says where the robot is. Until so many informative beams have confirmed it, the pose must not lie in unknown
@@ -207,9 +212,15 @@ impl Tracker {
         self.confidence.explained()
     }
 
-    /// What the map predicts beside what was met.
-    pub(super) const fn map_check(&self) -> &MapCheck {
-        &self.map_check
+    /// Why the map is doubted, and the share that speaks against it.
+    pub(super) fn map_doubt(&self) -> Option<(MapDoubt, f64)> {
+        let lost_share = || Some((MapDoubt::PlaceNotInMap, self.lost_share.doubt()?));
+        self.map_check.doubt().or_else(lost_share)
+    }
+
+    /// Whether much of the map was met, and nothing made it doubtful.
+    pub(super) fn has_map_held(&self) -> bool {
+        self.map_check.has_met_much() && self.map_doubt().is_none()
     }
 
     /// Takes ranges to beacons whose positions are known.
@@ -277,8 +288,10 @@ impl Tracker {
         } = advance.onsets;
         self.lift.update(observation, advance);
         self.dead_reckoning.follow(advance, moved.gyro);
+        self.lost_share.follow(advance, self.lost);
         if self.lift.is_put_down() {
             self.dead_reckoning.end();
+            self.lost_share.end();
             self.history.forget();
             self.lose(pose);
             return Some(self.estimate());

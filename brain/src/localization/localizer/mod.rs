@@ -407,16 +407,13 @@ impl Localization {
     /// Why the known map is doubted, with the share that speaks against it; `None` = it is not, or there is none.
     #[must_use]
     pub(crate) fn map_doubt(&self) -> Option<(MapDoubt, f64)> {
-        self.estimator.known_map()?.tracker.map_check().doubt()
+        self.estimator.known_map()?.tracker.map_doubt()
     }
 
     /// Whether much of the known map was met, and nothing made it doubtful.
     pub(crate) fn map_held(&self) -> bool {
         let known = self.estimator.known_map();
-        known.is_some_and(|known| {
-            let check = known.tracker.map_check();
-            check.has_met_much() && check.doubt().is_none()
-        })
+        known.is_some_and(|known| known.tracker.has_map_held())
     }
 
     /// Reversed distance in metres that the robot has not driven forward again, 0..=0.15: no sensor has seen that floor.

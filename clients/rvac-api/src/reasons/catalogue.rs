@@ -166,6 +166,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("gyro-back", "Its gyro measures again.", ""),
     entry("mapped-not-met", "Many walls or pieces of furniture on its map are not there.", "Take up the last good version of the map: rvac map list marks it, rvac map restore NUMBER takes it up, and so does the panel. If the home was rearranged, add a floor, and the robot maps it anew."),
     entry("met-not-mapped", "Walls or furniture stand where its map has floor.", "Take up the last good version of the map: rvac map list marks it, rvac map restore NUMBER takes it up, and so does the panel. If the home was rearranged, add a floor, and the robot maps it anew."),
+    entry("place-not-in-map", "For most of its way it has not found its place in its map, and nobody has lifted it.", "Take up the last good version of the map: rvac map list marks it, rvac map restore NUMBER takes it up, and so does the panel. If the home was rearranged, add a floor, and the robot maps it anew."),
     entry("gyro-drift", "Its gyro must be measured at rest now and then.", ""),
     entry("wall-ahead", "Something stands ahead.", ""),
     entry("wall-ended", "The wall ends here.", ""),

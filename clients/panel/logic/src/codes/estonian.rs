@@ -180,6 +180,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("gyro-back", "Güroskoop mõõdab jälle.", ""),
     entry("mapped-not-met", "Paljusid seinu või mööbliesemeid, mis on kaardil, ei ole kohal.", "Võta tagasi kaardi viimane hea versioon: see on märgitud kodu lehel ja käsu rvac map list väljundis, tagasi võtab rvac map restore NUMBER. Kui kodu on ümber sisustatud, lisa korrus ja lase robotil see uuesti kaardistada."),
     entry("met-not-mapped", "Seal, kus kaardil on põrand, on seinad või mööbel.", "Võta tagasi kaardi viimane hea versioon: see on märgitud kodu lehel ja käsu rvac map list väljundis, tagasi võtab rvac map restore NUMBER. Kui kodu on ümber sisustatud, lisa korrus ja lase robotil see uuesti kaardistada."),
+    entry("place-not-in-map", "Suurema osa teest ei ole robot oma asukohta kaardilt leidnud, kuigi keegi ei ole teda tõstnud.", "Võta tagasi kaardi viimane hea versioon: see on märgitud kodu lehel ja käsu rvac map list väljundis, tagasi võtab rvac map restore NUMBER. Kui kodu on ümber sisustatud, lisa korrus ja lase robotil see uuesti kaardistada."),
     entry("gyro-drift", "Güroskoopi tuleb aeg-ajalt seistes mõõta.", ""),
     entry("wall-ahead", "Midagi on ees.", ""),
     entry("wall-ended", "Sein lõpeb siin.", ""),
