@@ -62,6 +62,7 @@ impl Drop for QuestionSlot {
 enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<FloorHome>),
+    Doubt(u16),
     FloorOrder(FloorOrder),
     ArchiveOrder(ArchiveOrder),
     Edit(Box<EditedMap>),
@@ -163,6 +164,11 @@ impl CheckpointHandle {
     /// Hands a map over. If the disk is so slow that it is left out, the one after the next run says more.
     pub(crate) fn send_home(&self, home: FloorHome) {
         self.try_send(Kept::Home(Box::new(home)));
+    }
+
+    /// Says that the newest map of a floor is doubted. If the disk is so slow that it is left out, the end of the run says it again.
+    pub(crate) fn send_doubt(&self, floor: u16) {
+        self.try_send(Kept::Doubt(floor));
     }
 
     /// Hands a changed map over, in place of older ones that wait; `false` when the disk is too slow to take it now.
@@ -276,6 +282,8 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
             match queued.kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
                 Kept::Home(newer) => take_newer(&mut homes, *newer),
+                // Before a map that comes later is the newest.
+                Kept::Doubt(floor) => note_doubt(floor, &paths.floors),
                 Kept::Edit(edit) => {
                     take_newer(&mut homes, edit.home);
                     waiting.push((edit.client, edit.id));
@@ -344,6 +352,16 @@ fn take_newer(homes: &mut BTreeMap<u16, NewestHome>, newer: FloorHome) {
     let FloorHome { floor, home, trial } = newer;
     let trial = trial.or(homes.get(&floor).and_then(|older| older.trial));
     homes.insert(floor, NewestHome { home, trial });
+}
+
+fn note_doubt(floor: u16, floors: &FloorFolder) {
+    let maps = floors.maps(floor);
+    if let Err(error) = maps.note_doubt() {
+        tracing::warn!(
+            "cannot write in {} that its newest map is doubted: {error}",
+            maps.path().display()
+        );
+    }
 }
 
 /// Writes the maps; the last thing that went wrong, if anything did.

@@ -367,6 +367,9 @@ impl Daemon {
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.wiring.checkpoints.send(checkpoint);
         }
+        if let Some(floor) = self.outputs.doubted_floor.take() {
+            self.wiring.checkpoints.send_doubt(floor);
+        }
         if let Some(home) = self.outputs.home.take() {
             self.wiring.checkpoints.send_home(home);
         }

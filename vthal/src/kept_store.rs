@@ -208,6 +208,14 @@ impl KeptStore {
         maps.save_after(&kept.home, kept.trial)
     }
 
+    /// Keeps that the robot doubts the newest map of a floor.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_doubt(&self, floor: u16) -> io::Result<()> {
+        self.0.floors.maps(floor).note_doubt()
+    }
+
     /// Keeps the loads of motors.
     ///
     /// # Errors

@@ -126,9 +126,24 @@ impl MapFolder {
         let base = self.newest_number();
         self.save(home)?;
         let versions = base.zip(self.newest_number());
-        let Some((trial, versions)) = trial.zip(versions) else {
-            return Ok(());
-        };
+        match trial.zip(versions) {
+            Some((trial, versions)) => self.note_trial(trial, versions),
+            None => Ok(()),
+        }
+    }
+
+    /// The robot doubts the newest version.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn note_doubt(&self) -> io::Result<()> {
+        match self.newest_number() {
+            Some(newest) => self.note_trial(MapTrial::Doubted, (newest, newest)),
+            None => Ok(()),
+        }
+    }
+
+    fn note_trial(&self, trial: MapTrial, versions: (u64, u64)) -> io::Result<()> {
         let mut trials = MapTrials::load(&self.path);
         trials.note(trial, versions);
         trials.save(&self.path, &self.numbers())
@@ -368,7 +383,10 @@ mod tests {
             .0
             .save_after(&home(6), Some(MapTrial::Doubted))
             .expect("saves");
-        assert_eq!(marks(), [(3, true, false), (2, true, false), (1, false, true)]);
+        let doubted = [(3, true, false), (2, true, false), (1, false, true)];
+        assert_eq!(marks(), doubted);
+        scratch.0.note_doubt().expect("saves");
+        assert_eq!(marks(), doubted, "that is known");
         scratch.0.restore(1).expect("is whole");
         assert_eq!(marks()[0], (4, false, true));
         fs::write(scratch.0.path().join("trials.json"), "{").expect("writes");

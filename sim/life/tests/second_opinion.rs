@@ -12,7 +12,7 @@ use home::{Home, Noise, RobotModel};
 use life::{ChangingHome, HomeChange};
 use robot::RobotSettings;
 use rvac_sim::run::{RunEnd, core_config, start_cleaning};
-use rvac_sim::{Host, Household, Scene};
+use rvac_sim::{Host, Household, KeptWrite, Scene};
 use vthal_core::{Checkpoints, CoreConfig};
 
 const MINUTE_S: u64 = 60;
@@ -134,7 +134,9 @@ fn mirrored(map: &StoredMap) -> StoredMap {
 /// Cleans until the map is doubted, the job is over or the time is up.
 fn clean(household: &mut Household, seconds_max: u64) {
     assert!(start_cleaning(household, StrategyName::Systematic));
-    household.host_mut().expect("lives").keep_log();
+    let host = household.host_mut().expect("lives");
+    host.keep_log();
+    host.keep_writes();
     household.pass_until(seconds_max, |household| {
         doubt(household).is_some() || RunEnd::JobOver.is_reached(household)
     });
@@ -163,6 +165,9 @@ fn assert_doubted(name: &str, seed: u64) -> Household {
 fn a_second_copy_of_every_wall_is_doubted_within_one_job_and_no_share_is_told() {
     let mut household = assert_doubted("two-room-flat", 2);
     household.pass_ms(1_000);
+    let writes = household.host_mut().expect("lives").take_writes();
+    let noted = writes.iter().filter(|write| matches!(write, KeptWrite::Doubt(1)));
+    assert_eq!(noted.count(), 1, "the disk knows it before the job is over");
     let told = log_of_doubt(&household);
     assert!(
         told.len() == 1 && told[0].contains("mapped-not-met") && told[0].contains("rvac map restore"),
@@ -170,7 +175,13 @@ fn a_second_copy_of_every_wall_is_doubted_within_one_job_and_no_share_is_told() 
     );
     assert_eq!(told_share(&household), None);
     household.pass_until(40 * MINUTE_S, |household| RunEnd::JobOver.is_reached(household));
-    household.pass_ms(10_000);
+    household.pass_ms(60_000);
+    let writes = household.host_mut().expect("lives").take_writes();
+    let trials = writes.iter().filter_map(|write| match write {
+        KeptWrite::Home(left) => left.trial,
+        _ => None,
+    });
+    assert_eq!(trials.collect::<Vec<_>>(), [MapTrial::Doubted]);
     assert_eq!(told_share(&household), None);
     assert_eq!(log_of_doubt(&household).len(), 1, "it is told once");
     let runs = household.host().expect("lives").runs();

@@ -34,6 +34,8 @@ pub struct Outputs {
     pub calibration_orders: Vec<CalibrationOrder>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
+    /// The floor whose newest map the robot doubts from now on.
+    pub doubted_floor: Option<u16>,
     /// Maps that clients have changed, in order.
     pub map_edits: Vec<EditedMap>,
     /// Orders of clients about floors, in order.
@@ -305,6 +307,7 @@ impl Outputs {
         self.home = None;
         self.calibration_orders.clear();
         self.map_orders.clear();
+        self.doubted_floor = None;
         self.floor_orders.clear();
         self.archive_orders.clear();
         self.mix_orders.clear();

@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn the_way_back_names_the_last_good_version() {
-        let kept = |number, last_good| KeptMap {
+        let kept = |number: u64, last_good: bool| KeptMap {
             number,
             kept_s: 0,
             area_m2: 20.0,
