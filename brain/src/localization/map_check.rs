@@ -36,13 +36,13 @@ struct MapCheckParameters {
     /// Quantile of the normal distribution for the lower end of the interval: 95 % on one side.
     quantile: f64,
     /// Greatest share of the mapped patches that is missing where people live, at the lower end. With a second copy of every wall, turned
-    /// by ten degrees, it was 0.22 to 0.40 in eight jobs in seven homes; with a mirrored map 0.39 to 0.53 in six of eight homes. In ten
-    /// jobs in ten homes whose chairs, sofa, rug and doors had moved, with people walking about, it was 0.13 at most.
+    /// by ten degrees, it was 0.22 to 0.44 in eight homes; with a mirrored map 0.39 to 0.53 in six of eight. In ten homes whose chairs,
+    /// sofa, rug and doors had moved, with people walking about, it was 0.13 at most.
     missing_above: f64,
     /// Greatest share of what was met that is unforeseen where people live, at the lower end. People who follow the robot leave many such
-    /// patches behind: in the same ten jobs it was 0.26 at most. A map without furniture and half of its walls gave 0.18 to 0.45.
-    /// Furniture that came after the map cannot be told from people and chairs by this share (0.15 to 0.28 in eight homes), nor by
-    /// patches that were met twice, a minute apart.
+    /// patches behind: in the same ten homes it was 0.26 at most. A map without furniture and half of its walls gave 0.18 to 0.45 in
+    /// eight homes. Furniture that came after the map cannot be told from people and chairs by this share (0.15 to 0.28 in eight
+    /// homes), nor by patches that were met twice, a minute apart.
     unforeseen_above: f64,
 }
 
