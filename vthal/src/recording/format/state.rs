@@ -136,12 +136,8 @@ impl BrainState {
             None => None,
             Some(text) => Some(stored_map::decode(&from_hex(text)?).ok()?),
         };
-        let map_doubt = match &self.map_doubt {
-            None => None,
-            Some(name) => Some(MapDoubt::from_name(name)?),
-        };
         Some(Checkpoint {
-            map_doubt,
+            map_doubt: to_doubt(self.map_doubt.as_deref())?,
             pose: Pose2 {
                 x_m,
                 y_m,
@@ -200,6 +196,11 @@ impl BrainState {
             ),
         })
     }
+}
+
+/// A doubt by its name; `None` if this version does not know it.
+fn to_doubt(name: Option<&str>) -> Option<Option<MapDoubt>> {
+    name.map_or(Some(None), |name| MapDoubt::from_name(name).map(Some))
 }
 
 fn to_hex(bytes: &[u8]) -> String {
