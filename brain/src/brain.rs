@@ -9,6 +9,7 @@ mod learning;
 mod map_changes;
 mod map_renewal;
 mod map_words;
+mod next_run;
 mod planned_path;
 mod situation;
 mod young_map;

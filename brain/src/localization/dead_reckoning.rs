@@ -25,12 +25,12 @@ const REACH: Reach = Reach {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct DeadReckoning {
     /// `None` = the robot was not on its dock, was lifted since, or went too far.
-    since_dock: Option<Departure>,
+    since_dock: Option<WayFromDock>,
 }
 
 /// A robot that has left its dock.
 #[derive(Clone, Copy, Debug)]
-struct Departure {
+struct WayFromDock {
     pose: Pose2,
     distance_m: f64,
     /// Sum of all turns, radians: those to the left less those to the right.
@@ -38,7 +38,7 @@ struct Departure {
     time_s: f64,
 }
 
-impl Departure {
+impl WayFromDock {
     fn is_within_reach(&self, gyro: GyroEstimate) -> bool {
         let sigma_rad = gyro.scale_sigma * self.turned_rad.abs() + gyro.bias_sigma_rad_per_s * self.time_s;
         self.distance_m <= REACH.distance_m && sigma_rad <= REACH.heading_sigma_rad
@@ -48,7 +48,7 @@ impl Departure {
 impl DeadReckoning {
     /// The robot is on its dock.
     pub(super) fn begin_at(&mut self, dock: Pose2) {
-        self.since_dock = Some(Departure {
+        self.since_dock = Some(WayFromDock {
             pose: dock,
             distance_m: 0.0,
             turned_rad: 0.0,
@@ -68,20 +68,20 @@ impl DeadReckoning {
         }
         let before = self.since_dock.filter(|_| advance.gyro_turn_rad.is_some());
         self.since_dock = before
-            .map(|before| Departure {
+            .map(|before| WayFromDock {
                 pose: before.pose.after_arc(advance.distance_m, advance.turn_rad),
                 distance_m: before.distance_m + advance.distance_m.abs(),
                 turned_rad: before.turned_rad + advance.turn_rad,
                 time_s: before.time_s + advance.time_s,
             })
-            .filter(|departure| departure.is_within_reach(gyro));
+            .filter(|way| way.is_within_reach(gyro));
     }
 
     /// The pose, while odometry alone knows it.
     pub(super) fn pose(&self) -> Option<Pose2> {
-        self.since_dock.map(|departure| Pose2 {
-            heading_rad: normalize_rad(departure.pose.heading_rad),
-            ..departure.pose
+        self.since_dock.map(|way| Pose2 {
+            heading_rad: normalize_rad(way.pose.heading_rad),
+            ..way.pose
         })
     }
 }

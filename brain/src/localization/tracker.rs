@@ -4,8 +4,10 @@
 //! over all free floor. It is *found* when one cluster of particles remains that the map explains.
 
 mod drift_check;
+mod known_space;
 mod parameters;
 
+use known_space::Whole;
 use parameters::{SEARCH, TRACKING};
 
 use super::beacons::LocatedRange;
@@ -13,7 +15,6 @@ use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
 use super::dead_reckoning::DeadReckoning;
 use super::drift::{ODOMETRY_NOISE, turn_variance};
-use super::floor_blocks::FloorBlocks;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
@@ -32,7 +33,7 @@ use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
 
 use crate::model::config::SensorLayout;
-use crate::model::geometry::{Point2, Pose2};
+use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::onsets::Onsets;
 
@@ -287,13 +288,9 @@ impl Tracker {
             ..
         } = advance.onsets;
         self.lift.update(observation, advance);
-        self.dead_reckoning.follow(advance, moved.gyro);
-        self.lost_share.follow(advance, self.lost);
+        self.follow_since_dock(advance, moved.gyro);
         if self.lift.is_put_down() {
-            self.dead_reckoning.end();
-            self.lost_share.end();
-            self.history.forget();
-            self.lose(pose);
+            self.put_down(pose);
             return Some(self.estimate());
         }
         self.history.sample(observation, &self.layout.proximity);
@@ -336,6 +333,19 @@ impl Tracker {
         };
         self.check_map(map, estimate.pose);
         Some(estimate)
+    }
+
+    fn follow_since_dock(&mut self, advance: Advance, gyro: GyroEstimate) {
+        self.dead_reckoning.follow(advance, gyro);
+        self.lost_share.follow(advance, self.lost);
+    }
+
+    /// Somebody has carried the robot elsewhere.
+    fn put_down(&mut self, pose: Pose2) {
+        self.dead_reckoning.end();
+        self.lost_share.end();
+        self.history.forget();
+        self.lose(pose);
     }
 
     /// Compares what is met with the map, where the robot is by the particles, or by dead reckoning where that contradicts them or they
@@ -467,30 +477,5 @@ impl Tracker {
         self.ranges.clear();
         self.pending = MotionDelta::default();
         self.pending_turn_rad = 0.0;
-    }
-}
-
-/// A map without unknown space. A lost robot searches known space only, because any pose would do in unknown space.
-struct Whole<'map, M>(&'map M);
-
-impl<M: Surroundings> Surroundings for Whole<'_, M> {
-    fn clearance_m(&self, at: Point2) -> f64 {
-        self.0.clearance_m(at)
-    }
-
-    fn drop_m(&self, at: Point2) -> Option<f64> {
-        self.0.drop_m(at)
-    }
-
-    fn is_known(&self, _: Point2) -> bool {
-        true
-    }
-
-    fn clearance_around_m(&self, at: Point2, radius_m: f64) -> (f64, f64) {
-        self.0.clearance_around_m(at, radius_m)
-    }
-
-    fn floor_blocks(&self) -> FloorBlocks {
-        self.0.floor_blocks()
     }
 }

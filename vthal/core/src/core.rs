@@ -33,7 +33,7 @@ use crate::desk::standstills::StandstillDesk;
 use crate::desk::system_zone::SystemZoneDesk;
 use crate::device::DeviceCommand;
 use crate::learnt::RobotRecord;
-use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outputs, RunEnd};
+use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, RunEnd};
 
 /// The brain is called at least this often while there is one.
 const STEP_MAX_US: u64 = 100_000;
@@ -168,13 +168,9 @@ impl Core {
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
             Input::MapRestored { floor, number, home } => {
-                let kept = FloorHome {
-                    floor,
-                    home,
-                    trial: None,
-                };
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                let (restored, session) = (RestoredMap { number, kept }, self.brain_session.as_mut());
+                let (restored, session) =
+                    (RestoredMap::new(number, floor, home), self.brain_session.as_mut());
                 self.floors.map_restored(&restored, session, &mut teller);
             }
             Input::FloorsKept { task, floors, made } => {
