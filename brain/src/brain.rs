@@ -9,6 +9,7 @@ mod learning;
 mod map_changes;
 mod map_renewal;
 mod map_words;
+mod next_run;
 mod planned_path;
 mod situation;
 mod young_map;
@@ -364,30 +365,8 @@ impl Brain {
             hazards: map.hazards.to_vec(),
             home: None,
             tracking: self.localization.checkpoint(),
+            map_doubt: self.map_doubt,
         }
-    }
-
-    /// As [`Self::checkpoint_without_home`], for a run that begins now. A robot on its dock that has just completed the first map of its
-    /// home gets the dock's pose in that map, and localizes in the map from then on, as after a restart.
-    #[must_use]
-    pub fn checkpoint_for_next_run(&self) -> Checkpoint {
-        let present = self.checkpoint_without_home();
-        match self.dock_of_new_map() {
-            Some(pose) => Checkpoint {
-                pose,
-                tracking: Some(self.localization.tracking_on_dock()),
-                ..present
-            },
-            None => present,
-        }
-    }
-
-    /// Pose of a docked robot in a map that it has just completed and does not localize in yet.
-    fn dock_of_new_map(&self) -> Option<Pose2> {
-        let dock = self.map.dock_location();
-        let has_new_map = self.behavior.has_covered_home() && self.map_agreement().is_none();
-        let is_on_dock = self.localization.is_docked() && !dock.is_reported();
-        dock.pose().filter(|_| has_new_map && is_on_dock)
     }
 
     /// What was learnt of the gyro.
@@ -440,6 +419,7 @@ impl Brain {
             gyro: checkpoint.gyro,
             energy: checkpoint.energy,
         });
+        self.map_doubt = checkpoint.map_doubt;
         if let Some(job) = &checkpoint.job {
             self.behavior.restore(job.clone());
             self.map.avoid(self.behavior.avoided());

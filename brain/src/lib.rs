@@ -47,6 +47,7 @@ pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::link_fault::LinkFault;
 pub use model::map_doubt::MapDoubt;
 pub use model::map_edit::{MapEdit, NoGoEdit, PlaceEdit, RoomEdit};
+pub use model::map_trial::MapTrial;
 pub use model::no_go::{NoGo, NoGoShape, RoomName};
 pub use model::observation::Observation;
 pub use model::onsets::{DockOnset, Onsets};

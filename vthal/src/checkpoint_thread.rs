@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use brain::StoredMap;
+use brain::{MapTrial, StoredMap};
 use rvac_api::{KeptMap, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
@@ -62,6 +62,7 @@ impl Drop for QuestionSlot {
 enum Kept {
     Checkpoint(Box<Checkpoint>),
     Home(Box<FloorHome>),
+    Doubt(u16),
     FloorOrder(FloorOrder),
     ArchiveOrder(ArchiveOrder),
     Edit(Box<EditedMap>),
@@ -165,6 +166,11 @@ impl CheckpointHandle {
         self.try_send(Kept::Home(Box::new(home)));
     }
 
+    /// Says that the newest map of a floor is doubted. If the disk is so slow that it is left out, the end of the run says it again.
+    pub(crate) fn send_doubt(&self, floor: u16) {
+        self.try_send(Kept::Doubt(floor));
+    }
+
     /// Hands a changed map over, in place of older ones that wait; `false` when the disk is too slow to take it now.
     #[must_use]
     pub(crate) fn edit(&self, edit: EditedMap) -> bool {
@@ -265,7 +271,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
     while let Ok(first) = queue.recv() {
         let (mut checkpoint, mut orders, mut runs) = (None, Vec::new(), Vec::new());
         // The newest one of each floor.
-        let mut homes: BTreeMap<u16, StoredMap> = BTreeMap::new();
+        let mut homes: BTreeMap<u16, NewestHome> = BTreeMap::new();
         // Whoever waits until the home is kept.
         let (mut waiting, mut floor_orders) = (Vec::new(), Vec::new());
         let mut archive_orders = Vec::new();
@@ -275,11 +281,11 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
             places.extend(queued.place);
             match queued.kept {
                 Kept::Checkpoint(newer) => checkpoint = Some(newer),
-                Kept::Home(newer) => {
-                    homes.insert(newer.floor, newer.home);
-                }
+                Kept::Home(newer) => take_newer(&mut homes, *newer),
+                // Before a map that comes later is the newest.
+                Kept::Doubt(floor) => note_doubt(floor, &paths.floors),
                 Kept::Edit(edit) => {
-                    homes.insert(edit.home.floor, edit.home.home);
+                    take_newer(&mut homes, edit.home);
                     waiting.push((edit.client, edit.id));
                 }
                 Kept::FloorOrder(order) => floor_orders.push(order),
@@ -336,12 +342,34 @@ fn keep_checkpoint(checkpoint: &Checkpoint, healthy: bool, paths: &KeptPaths) ->
     result.is_ok()
 }
 
+/// The newest map of a floor that waits for the disk, and what the run that left it, or one before it, has shown of the map before.
+struct NewestHome {
+    home: StoredMap,
+    trial: Option<MapTrial>,
+}
+
+fn take_newer(homes: &mut BTreeMap<u16, NewestHome>, newer: FloorHome) {
+    let FloorHome { floor, home, trial } = newer;
+    let trial = trial.or(homes.get(&floor).and_then(|older| older.trial));
+    homes.insert(floor, NewestHome { home, trial });
+}
+
+fn note_doubt(floor: u16, floors: &FloorFolder) {
+    let maps = floors.maps(floor);
+    if let Err(error) = maps.note_doubt() {
+        tracing::warn!(
+            "cannot write in {} that its newest map is doubted: {error}",
+            maps.path().display()
+        );
+    }
+}
+
 /// Writes the maps; the last thing that went wrong, if anything did.
-fn keep(homes: &BTreeMap<u16, StoredMap>, floors: &FloorFolder) -> io::Result<()> {
+fn keep(homes: &BTreeMap<u16, NewestHome>, floors: &FloorFolder) -> io::Result<()> {
     let mut kept = Ok(());
-    for (floor, home) in homes {
+    for (floor, NewestHome { home, trial }) in homes {
         let maps = floors.maps(*floor);
-        if let Err(error) = maps.save(home) {
+        if let Err(error) = maps.save_after(home, *trial) {
             tracing::error!(
                 "cannot write a map in {}: {error}; the robot will have to make it again",
                 maps.path().display()

@@ -367,9 +367,7 @@ impl Daemon {
         if let Some(checkpoint) = self.outputs.checkpoint.take() {
             self.wiring.checkpoints.send(checkpoint);
         }
-        if let Some(home) = self.outputs.home.take() {
-            self.wiring.checkpoints.send_home(home);
-        }
+        self.keep_maps();
         for edit in std::mem::take(&mut self.outputs.map_edits) {
             self.keep_edit(edit);
         }

@@ -204,7 +204,16 @@ impl KeptStore {
     /// # Errors
     /// What the file system says.
     pub fn keep_home(&self, kept: &FloorHome) -> io::Result<()> {
-        self.0.floors.maps(kept.floor).save(&kept.home)
+        let maps = self.0.floors.maps(kept.floor);
+        maps.save_after(&kept.home, kept.trial)
+    }
+
+    /// Keeps that the robot doubts the newest map of a floor.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_doubt(&self, floor: u16) -> io::Result<()> {
+        self.0.floors.maps(floor).note_doubt()
     }
 
     /// Keeps the loads of motors.

@@ -31,6 +31,7 @@ mod logging;
     warn(clippy::arithmetic_side_effects, reason = "it counts what comes from outside")
 )]
 mod map_folder;
+mod map_trials;
 mod mix_folder;
 #[cfg_attr(
     not(test),

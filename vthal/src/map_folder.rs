@@ -6,12 +6,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use brain::{CELL_M, CellKnowledge, NextNumbers, StoredMap};
+use brain::{CELL_M, CellKnowledge, MapTrial, NextNumbers, StoredMap};
 use kept_file::{newest_json, replace_json};
 use rvac_api::KeptMap;
 use serde::{Deserialize, Serialize};
 use vthal_core::stored_map;
 
+use crate::map_trials::MapTrials;
 use crate::numbered::number;
 
 /// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
@@ -117,6 +118,37 @@ impl MapFolder {
         self.save_bytes(&stored_map::encode(home))
     }
 
+    /// As [`Self::save`], with what the run that leaves it has shown of the map before it.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn save_after(&self, home: &StoredMap, trial: Option<MapTrial>) -> io::Result<()> {
+        let base = self.newest_number();
+        self.save(home)?;
+        let versions = base.zip(self.newest_number());
+        match trial.zip(versions) {
+            Some((trial, versions)) => self.note_trial(trial, versions),
+            None => Ok(()),
+        }
+    }
+
+    /// The robot doubts the newest version.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub(crate) fn note_doubt(&self) -> io::Result<()> {
+        match self.newest_number() {
+            Some(newest) => self.note_trial(MapTrial::Doubted, (newest, newest)),
+            None => Ok(()),
+        }
+    }
+
+    fn note_trial(&self, trial: MapTrial, versions: (u64, u64)) -> io::Result<()> {
+        let mut trials = MapTrials::load(&self.path);
+        trials.note(trial, versions);
+        trials.save(&self.path, &self.numbers())
+    }
+
     /// The numbers that nothing of the floor has had yet, and what is wrong with the file that holds them. They lie beside the maps,
     /// because the newest map may be damaged; without them the maps know.
     pub(crate) fn next_numbers(&self) -> (NextNumbers, Vec<String>) {
@@ -197,7 +229,15 @@ impl MapFolder {
     /// The versions that are whole, newest first.
     pub(crate) fn list(&self) -> Vec<KeptMap> {
         let kept = |number| Some(describe(number, self.kept_s(number), &self.load(number).ok()?));
-        self.numbers().into_iter().filter_map(kept).collect()
+        let mut versions: Vec<KeptMap> = self.numbers().into_iter().filter_map(kept).collect();
+        let numbers: Vec<u64> = versions.iter().map(|version| version.number).collect();
+        let trials = MapTrials::load(&self.path);
+        let last_good = trials.last_good(&numbers);
+        for version in &mut versions {
+            version.doubted = trials.is_doubted(version.number);
+            version.last_good = last_good == Some(version.number);
+        }
+        versions
     }
 
     /// Makes a version the newest one.
@@ -215,6 +255,11 @@ impl MapFolder {
         // keep numbers.
         let home = home.numbered_after(self.next_numbers().0.after(self.next_numbers_of_maps()));
         self.save(&home)?;
+        if let Some(copy) = self.newest_number() {
+            let mut trials = MapTrials::load(&self.path);
+            trials.copy(number, copy);
+            trials.save(&self.path, &self.numbers())?;
+        }
         Ok(home)
     }
 
@@ -278,6 +323,8 @@ fn describe(number: u64, kept_s: u64, home: &StoredMap) -> KeptMap {
         kept_s,
         area_m2: free.count() as f64 * CELL_M * CELL_M,
         rooms: u32::try_from(home.room_count()).unwrap_or(u32::MAX),
+        doubted: false,
+        last_good: false,
     }
 }
 
@@ -285,7 +332,7 @@ fn describe(number: u64, kept_s: u64, home: &StoredMap) -> KeptMap {
 mod tests {
     use std::fs;
 
-    use brain::{Cell, CellKnowledge, Raster, StoredMap};
+    use brain::{Cell, CellKnowledge, MapTrial, Raster, StoredMap};
 
     use super::{MapFolder, VERSIONS_MAX};
 
@@ -314,6 +361,45 @@ mod tests {
         fn drop(&mut self) {
             fs::remove_dir_all(self.0.path()).ok();
         }
+    }
+
+    #[test]
+    fn a_doubted_version_and_the_last_good_one_are_marked_and_a_restored_one_is_as_it_was() {
+        let scratch = Scratch::new("trials");
+        let marks = || {
+            let versions = scratch.0.list();
+            let marks = versions
+                .iter()
+                .map(|kept| (kept.number, kept.doubted, kept.last_good));
+            marks.collect::<Vec<_>>()
+        };
+        scratch.0.save_after(&home(4), None).expect("saves");
+        scratch
+            .0
+            .save_after(&home(5), Some(MapTrial::Held))
+            .expect("saves");
+        assert_eq!(marks(), [(2, false, false), (1, false, true)]);
+        scratch
+            .0
+            .save_after(&home(6), Some(MapTrial::Doubted))
+            .expect("saves");
+        let doubted = [(3, true, false), (2, true, false), (1, false, true)];
+        assert_eq!(marks(), doubted);
+        scratch.0.note_doubt().expect("saves");
+        assert_eq!(marks(), doubted, "that is known");
+        scratch.0.restore(1).expect("is whole");
+        assert_eq!(marks()[0], (4, false, true));
+        fs::write(scratch.0.path().join("trials.json"), "{").expect("writes");
+        assert_eq!(
+            marks(),
+            [
+                (4, false, false),
+                (3, true, false),
+                (2, true, false),
+                (1, false, true)
+            ],
+            "a damaged file is as the one before it"
+        );
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::model::energy::EnergyModel;
 use crate::model::geometry::Pose2;
 use crate::model::gradual::Gradual;
 use crate::model::learnt::{GyroLearnt, Learnt};
+use crate::model::map_doubt::MapDoubt;
 
 /// State of a brain that can be taken up again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +36,8 @@ pub struct Checkpoint {
     pub gyro: Option<GyroLearnt>,
     /// State of localization in the map of the home; `None` = odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
+    /// Why the map of the home is doubted in this run; `None` = it is not.
+    pub map_doubt: Option<MapDoubt>,
 }
 
 /// A checkpoint in the making: copying the home takes several steps.

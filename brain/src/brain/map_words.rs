@@ -3,6 +3,7 @@
 use super::Brain;
 use crate::model::decision::DecisionKind;
 use crate::model::map_doubt::MapDoubt;
+use crate::model::map_trial::MapTrial;
 use crate::model::reason::Reason;
 
 impl Brain {
@@ -10,6 +11,15 @@ impl Brain {
     #[must_use]
     pub fn map_doubt(&self) -> Option<MapDoubt> {
         self.map_doubt
+    }
+
+    /// What this run has shown of the map with which it began; `None` = too little, or there was none.
+    #[must_use]
+    pub fn map_trial(&self) -> Option<MapTrial> {
+        match self.map_doubt {
+            Some(_) => Some(MapTrial::Doubted),
+            None => self.localization.map_held().then_some(MapTrial::Held),
+        }
     }
 
     /// Notes the first doubt of this run. What made it doubt is not forgotten when other parts of the map turn out to be right.

@@ -10,6 +10,7 @@ mod beacons;
 mod calibration;
 mod candidates;
 mod confidence;
+mod dead_reckoning;
 mod drift;
 mod floor_blocks;
 mod global_localizer;
@@ -23,6 +24,7 @@ mod known_storeys;
 mod lift;
 mod line_slam;
 mod localizer;
+mod lost_share;
 #[cfg(test)]
 mod many_runs;
 mod map_check;

@@ -4,18 +4,21 @@
 //! over all free floor. It is *found* when one cluster of particles remains that the map explains.
 
 mod drift_check;
+mod known_space;
 mod parameters;
 
+use known_space::Whole;
 use parameters::{SEARCH, TRACKING};
 
 use super::beacons::LocatedRange;
 use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
+use super::dead_reckoning::DeadReckoning;
 use super::drift::{ODOMETRY_NOISE, turn_variance};
-use super::floor_blocks::FloorBlocks;
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
+use super::lost_share::LostShare;
 use super::map_check::MapCheck;
 use super::odometry::Odometry;
 use super::particles::{
@@ -25,11 +28,12 @@ use super::rssi_fingerprint::{FingerprintMap, FingerprintMatcher, RssiFingerprin
 use super::scan_history::ScanHistory;
 use super::standstill::Standstill;
 use crate::model::advance::Advance;
+use crate::model::map_doubt::MapDoubt;
 use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
 
 use crate::model::config::SensorLayout;
-use crate::model::geometry::{Point2, Pose2};
+use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::onsets::Onsets;
 
@@ -39,6 +43,8 @@ pub(super) const SENSORS_MIN: usize = 3;
 /// Number of informative beams after which a found pose counts as confirmed. Until then it must not lie in unknown space: global
 /// localization searches known space only, and a wrong pose leads out of it soon.
 pub(super) const CONFIRMATION_BEAMS: u32 = 200;
+/// Dead reckoning that is this far from the particles contradicts them, metres: several times its error.
+const CONTRADICTION_M: f64 = 0.5;
 
 /// The motion of a step, and the estimate.
 #[derive(Clone, Copy, Debug)]
@@ -94,6 +100,8 @@ pub(super) struct Tracker {
     unconfirmed: u32,
     /// It competes with other storeys, so contradictions of its map must not be explained away.
     competes: bool,
+    dead_reckoning: DeadReckoning,
+    lost_share: LostShare,
     /// What the map predicts beside what is met.
     map_check: MapCheck,
     radius_m: f64,
@@ -122,6 +130,8 @@ impl Tracker {
             since_found: BeamScore::default(),
             unconfirmed: 0,
             competes: false,
+            dead_reckoning: DeadReckoning::default(),
+            lost_share: LostShare::default(),
             map_check: MapCheck::default(),
             radius_m,
             layout,
@@ -151,6 +161,13 @@ impl Tracker {
         // A person who has placed it there does not carry it away.
         self.lift.settle();
         self.lost = false;
+    }
+
+    /// The robot is on its dock, whose place is known.
+    pub(super) fn place_on_dock(&mut self, dock: Pose2, spread: PoseSpread) {
+        self.place_at(dock, spread.sigma_m, spread.sigma_rad);
+        self.dead_reckoning.begin_at(dock);
+        self.lost_share.begin();
     }
 
     /// Only a person says where the robot is. Until so many informative beams have confirmed it, the pose must not lie in unknown
@@ -196,9 +213,15 @@ impl Tracker {
         self.confidence.explained()
     }
 
-    /// What the map predicts beside what was met.
-    pub(super) const fn map_check(&self) -> &MapCheck {
-        &self.map_check
+    /// Why the map is doubted, and the share that speaks against it.
+    pub(super) fn map_doubt(&self) -> Option<(MapDoubt, f64)> {
+        let lost_share = || Some((MapDoubt::PlaceNotInMap, self.lost_share.doubt()?));
+        self.map_check.doubt().or_else(lost_share)
+    }
+
+    /// Whether much of the map was met, and nothing made it doubtful.
+    pub(super) fn has_map_held(&self) -> bool {
+        self.map_check.has_met_much() && self.map_doubt().is_none()
     }
 
     /// Takes ranges to beacons whose positions are known.
@@ -265,9 +288,9 @@ impl Tracker {
             ..
         } = advance.onsets;
         self.lift.update(observation, advance);
+        self.follow_since_dock(advance, moved.gyro);
         if self.lift.is_put_down() {
-            self.history.forget();
-            self.lose(pose);
+            self.put_down(pose);
             return Some(self.estimate());
         }
         self.history.sample(observation, &self.layout.proximity);
@@ -300,14 +323,43 @@ impl Tracker {
         };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
-        if self.lost {
+        let estimate = if self.lost {
             let map = &Whole(map);
             self.filter.weigh(map, observation, &measurements);
-            Some(self.search(map, pose))
+            self.search(map, pose)
         } else {
             self.filter.weigh(map, observation, &measurements);
-            Some(self.judge(map))
-        }
+            self.judge(map)
+        };
+        self.check_map(map, estimate.pose);
+        Some(estimate)
+    }
+
+    fn follow_since_dock(&mut self, advance: Advance, gyro: GyroEstimate) {
+        self.dead_reckoning.follow(advance, gyro);
+        self.lost_share.follow(advance, self.lost);
+    }
+
+    /// Somebody has carried the robot elsewhere.
+    fn put_down(&mut self, pose: Pose2) {
+        self.dead_reckoning.end();
+        self.lost_share.end();
+        self.history.forget();
+        self.lose(pose);
+    }
+
+    /// Compares what is met with the map, where the robot is by the particles, or by dead reckoning where that contradicts them or they
+    /// do not know: a wrong map must not choose the place at which it is tested.
+    fn check_map(&mut self, map: &impl Surroundings, by_particles: Pose2) {
+        let is_settled = self.is_settled();
+        let reckoned = self.dead_reckoning.pose().filter(|reckoned| {
+            let apart_m = reckoned.position().distance_m(by_particles.position());
+            !is_settled || apart_m > CONTRADICTION_M
+        });
+        let Some(pose) = reckoned.or(is_settled.then_some(by_particles)) else {
+            return;
+        };
+        self.map_check.take(map, &self.filter.compared(map, pose));
     }
 
     /// Particles hold what they have learned only while the pose is known.
@@ -325,10 +377,6 @@ impl Tracker {
         let estimate = self.filter.estimate();
         let score = self.filter.score(map, estimate.pose);
         self.since_found = self.since_found.and(score);
-        if self.is_settled() {
-            self.map_check
-                .take(map, &self.filter.compared(map, estimate.pose));
-        }
         if self.unconfirmed > 0 {
             let score = self.filter.score(&Whole(map), estimate.pose);
             self.unconfirmed = self.unconfirmed.saturating_sub(score.informative);
@@ -429,30 +477,5 @@ impl Tracker {
         self.ranges.clear();
         self.pending = MotionDelta::default();
         self.pending_turn_rad = 0.0;
-    }
-}
-
-/// A map without unknown space. A lost robot searches known space only, because any pose would do in unknown space.
-struct Whole<'map, M>(&'map M);
-
-impl<M: Surroundings> Surroundings for Whole<'_, M> {
-    fn clearance_m(&self, at: Point2) -> f64 {
-        self.0.clearance_m(at)
-    }
-
-    fn drop_m(&self, at: Point2) -> Option<f64> {
-        self.0.drop_m(at)
-    }
-
-    fn is_known(&self, _: Point2) -> bool {
-        true
-    }
-
-    fn clearance_around_m(&self, at: Point2, radius_m: f64) -> (f64, f64) {
-        self.0.clearance_around_m(at, radius_m)
-    }
-
-    fn floor_blocks(&self) -> FloorBlocks {
-        self.0.floor_blocks()
     }
 }

@@ -20,6 +20,7 @@ pub mod learnt;
 pub(crate) mod link_fault;
 pub(crate) mod map_doubt;
 pub(crate) mod map_edit;
+pub(crate) mod map_trial;
 pub(crate) mod named_enum;
 pub mod no_go;
 pub mod observation;

@@ -303,6 +303,8 @@ mod tests {
             kept_s: 1_700_000_000,
             area_m2: 10.0,
             rooms: 2,
+            doubted: false,
+            last_good: false,
         }]);
         assert_eq!(told[0]["id"], "12");
         assert_eq!(told[0]["timestamp"], "2023-11-14T22:13:20Z");

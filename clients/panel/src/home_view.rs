@@ -171,6 +171,8 @@ fn kept(store: Store, place: usize, map: KeptMap) -> impl IntoView {
         <li>
             <span class="name">{texts.map.fill([&map.number])}</span>
             <span class="words">{extent}</span>
+            {map.doubted.then(|| view! { <span class="newest">{texts.was_doubted}</span> })}
+            {map.last_good.then(|| view! { <span class="newest">{texts.last_good}</span> })}
             {if place == 0 {
                 view! { <span class="newest">{texts.in_use}</span> }.into_any()
             } else {

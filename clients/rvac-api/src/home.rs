@@ -95,6 +95,12 @@ pub struct KeptMap {
     pub area_m2: f64,
     /// Rooms in it.
     pub rooms: u32,
+    /// A run with it, or before it, has doubted it.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub doubted: bool,
+    /// The version to take up when the newest is bad: a run with it met what it shows, or it is the newest from before a doubt.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub last_good: bool,
 }
 
 /// A room.

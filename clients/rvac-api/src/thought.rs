@@ -29,7 +29,7 @@ pub struct Estimate {
     pub map_doubt: Option<MapDoubt>,
 }
 
-/// In which direction map and home disagree.
+/// How map and home disagree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MapDoubt {
@@ -37,6 +37,8 @@ pub enum MapDoubt {
     MappedNotMet,
     /// Walls and furniture stand where the map has floor.
     MetNotMapped,
+    /// The robot, which nobody has carried, does not find its place in the map for most of its way.
+    PlaceNotInMap,
 }
 
 impl MapDoubt {
@@ -46,6 +48,7 @@ impl MapDoubt {
         match self {
             Self::MappedNotMet => "mapped-not-met",
             Self::MetNotMapped => "met-not-mapped",
+            Self::PlaceNotInMap => "place-not-in-map",
         }
     }
 }

@@ -310,6 +310,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("gyro-scale", None),
     ("mapped-not-met", Some(Trouble::Place)),
     ("met-not-mapped", Some(Trouble::Place)),
+    ("place-not-in-map", Some(Trouble::Place)),
     ("gyro-drift", None),
     ("gyro-frozen", None),
     ("gyro-at-its-limit", None),

@@ -754,6 +754,33 @@ fn orders() {
     );
 }
 
+fn kept_maps() {
+    let maps = vec![KeptMap {
+        number: 2,
+        kept_s: 1_700_000_000,
+        area_m2: 12.5,
+        rooms: 3,
+        doubted: false,
+        last_good: false,
+    }];
+    let marked = KeptMap {
+        doubted: true,
+        last_good: true,
+        ..maps[0]
+    };
+    check(
+        &Update::Maps { floor: Some(2), maps },
+        r#"{"e":"maps","floor":2,"maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
+    );
+    check(
+        &Update::Maps {
+            floor: None,
+            maps: vec![marked],
+        },
+        r#"{"e":"maps","maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3,"doubted":true,"last_good":true}]}"#,
+    );
+}
+
 #[test]
 fn what_the_robot_thinks() {
     let estimate = Estimate {
@@ -808,16 +835,7 @@ fn what_the_robot_thinks() {
         r#"{"e":"decision","number":3,"t":1.5,"what":"back-off","reason":"bump-left","value":0.0,"text":"Backed off."}"#,
     );
     standstill();
-    let maps = vec![KeptMap {
-        number: 2,
-        kept_s: 1_700_000_000,
-        area_m2: 12.5,
-        rooms: 3,
-    }];
-    check(
-        &Update::Maps { floor: Some(2), maps },
-        r#"{"e":"maps","floor":2,"maps":[{"number":2,"kept_s":1700000000,"area_m2":12.5,"rooms":3}]}"#,
-    );
+    kept_maps();
     check(
         &Update::Mixes {
             mixes: vec!["{}".to_owned()],

@@ -204,6 +204,7 @@ impl<'a> Chain<'a> {
             let began = Instant::now();
             match write {
                 KeptWrite::Home(home) => self.store.keep_home(&home)?,
+                KeptWrite::Doubt(floor) => self.store.keep_doubt(floor)?,
                 KeptWrite::Learnt(learnt) => self.store.keep_learnt(&learnt)?,
                 KeptWrite::Health(health) => self.store.keep_health(&health)?,
                 KeptWrite::Run(record) => {

@@ -6,13 +6,14 @@ use std::sync::Arc;
 
 use brain::command::StrategyName;
 use brain::mapping::{CellKnowledge, StoredMap};
-use brain::{Cell, MapDoubt, Point2, Raster};
+use brain::{Cell, MapDoubt, MapTrial, Point2, Pose2, Raster};
 use home::generate::GeneratedHome;
 use home::{Home, Noise, RobotModel};
 use life::{ChangingHome, HomeChange};
 use robot::RobotSettings;
 use rvac_sim::run::{RunEnd, core_config, start_cleaning};
-use rvac_sim::{Host, Household, Scene};
+use rvac_sim::{Host, Household, KeptWrite, Scene};
+use vthal_core::{Checkpoints, CoreConfig};
 
 const MINUTE_S: u64 = 60;
 /// How far the second copy of the walls is turned, radians.
@@ -39,16 +40,27 @@ fn home(name: &str) -> Arc<Home> {
     Arc::new(Home::from_floorplan(name, &plan(name), &model()).expect("a home"))
 }
 
+fn scene(home: &Arc<Home>) -> Scene {
+    Scene::new(Arc::clone(home), model(), Noise::nominal())
+}
+
+/// A daemon that writes checkpoints.
+fn config(home: &Arc<Home>, seed: u64) -> CoreConfig {
+    CoreConfig {
+        checkpoints: Checkpoints::On,
+        ..core_config(&scene(home), seed, StrategyName::Systematic)
+    }
+}
+
 /// A robot on its dock in this home.
 fn household(home: &Arc<Home>, seed: u64) -> Household {
-    let scene = Scene::new(Arc::clone(home), model(), Noise::nominal());
+    let scene = scene(home);
     let settings = RobotSettings {
         seed,
         ..RobotSettings::default()
     };
     let robot = scene.robot_at(None, seed, &settings);
-    let config = core_config(&scene, seed, StrategyName::Systematic);
-    Household::new(robot, Host::start(0, config))
+    Household::new(robot, Host::start(0, config(home, seed)))
 }
 
 fn doubt(household: &Household) -> Option<MapDoubt> {
@@ -96,10 +108,35 @@ fn with_second_walls(map: &StoredMap) -> StoredMap {
     StoredMap::from_raster(&after, map.dock())
 }
 
+/// The map with left and right exchanged at the dock.
+fn mirrored(map: &StoredMap) -> StoredMap {
+    let before = map.knowledge();
+    let origin = before.origin();
+    let top = origin.y + i32::try_from(before.height()).expect("a small home") - 1;
+    let corner = Cell {
+        x: origin.x,
+        y: -1 - top,
+    };
+    let mut after = Raster::filled(corner, before.width(), before.height(), CellKnowledge::Unknown);
+    for index in 0..after.values().len() {
+        let Cell { x, y } = after.cell(index);
+        let seen = before.get(Cell { x, y: -1 - y });
+        after.values_mut()[index] = seen.copied().unwrap_or_default();
+    }
+    let dock = map.dock().map(|dock| Pose2 {
+        y_m: -dock.y_m,
+        heading_rad: -dock.heading_rad,
+        ..dock
+    });
+    StoredMap::from_raster(&after, dock)
+}
+
 /// Cleans until the map is doubted, the job is over or the time is up.
 fn clean(household: &mut Household, seconds_max: u64) {
     assert!(start_cleaning(household, StrategyName::Systematic));
-    household.host_mut().expect("lives").keep_log();
+    let host = household.host_mut().expect("lives");
+    host.keep_log();
+    host.keep_writes();
     household.pass_until(seconds_max, |household| {
         doubt(household).is_some() || RunEnd::JobOver.is_reached(household)
     });
@@ -128,6 +165,9 @@ fn assert_doubted(name: &str, seed: u64) -> Household {
 fn a_second_copy_of_every_wall_is_doubted_within_one_job_and_no_share_is_told() {
     let mut household = assert_doubted("two-room-flat", 2);
     household.pass_ms(1_000);
+    let writes = household.host_mut().expect("lives").take_writes();
+    let noted = writes.iter().filter(|write| matches!(write, KeptWrite::Doubt(1)));
+    assert_eq!(noted.count(), 1, "the disk knows it before the job is over");
     let told = log_of_doubt(&household);
     assert!(
         told.len() == 1 && told[0].contains("mapped-not-met") && told[0].contains("rvac map restore"),
@@ -135,7 +175,13 @@ fn a_second_copy_of_every_wall_is_doubted_within_one_job_and_no_share_is_told() 
     );
     assert_eq!(told_share(&household), None);
     household.pass_until(40 * MINUTE_S, |household| RunEnd::JobOver.is_reached(household));
-    household.pass_ms(10_000);
+    household.pass_ms(60_000);
+    let writes = household.host_mut().expect("lives").take_writes();
+    let trials = writes.iter().filter_map(|write| match write {
+        KeptWrite::Home(left) => left.trial,
+        _ => None,
+    });
+    assert_eq!(trials.collect::<Vec<_>>(), [MapTrial::Doubted]);
     assert_eq!(told_share(&household), None);
     assert_eq!(log_of_doubt(&household).len(), 1, "it is told once");
     let runs = household.host().expect("lives").runs();
@@ -151,6 +197,48 @@ fn a_right_map_is_not_doubted_and_its_share_is_told() {
     clean(&mut household, 5 * MINUTE_S);
     assert_eq!(doubt(&household), None);
     assert!(told_share(&household).is_some());
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    assert_eq!(brain.map_trial(), Some(MapTrial::Held));
+}
+
+#[test]
+fn a_mirrored_map_in_which_the_robot_gets_lost_is_doubted_by_where_it_must_be() {
+    let home = home("two-room-flat");
+    let wrong = mirrored(&right_map(&home));
+    let mut household = household(&home, 1).with_map(wrong);
+    clean(&mut household, DOUBT_S);
+    assert_eq!(doubt(&household), Some(MapDoubt::MappedNotMet));
+    assert_eq!(told_share(&household), None);
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    assert_eq!(brain.map_trial(), Some(MapTrial::Doubted));
+}
+
+#[test]
+fn the_map_of_another_home_is_doubted() {
+    let (here, there) = (home("two-room-flat"), home("furnished-room"));
+    let mut household = household(&here, 1).with_map(right_map(&there));
+    clean(&mut household, DOUBT_S);
+    assert!(doubt(&household).is_some());
+    assert_eq!(told_share(&household), None);
+}
+
+#[test]
+fn a_doubt_outlives_a_restart_and_is_not_told_again_in_the_same_job() {
+    let mut household = assert_doubted("two-room-flat", 2);
+    household.pass_ms(10_000);
+    let before = household.kill_host().expect("lives");
+    household.pass_ms(3_000);
+    let config = CoreConfig {
+        resume: before.checkpoint().cloned(),
+        ..config(&home("two-room-flat"), 2)
+    };
+    let mut host = Host::start(household.now_us(), config);
+    host.keep_log();
+    household.revive_host(host);
+    household.pass_ms(20_000);
+    assert_eq!(doubt(&household), Some(MapDoubt::MappedNotMet));
+    assert_eq!(told_share(&household), None);
+    assert_eq!(log_of_doubt(&household), Vec::<String>::new());
 }
 
 #[test]

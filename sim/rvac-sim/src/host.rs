@@ -60,6 +60,8 @@ pub(crate) const CLIENT: ClientId = ClientId(1);
 pub enum KeptWrite {
     /// The map of a floor.
     Home(Box<FloorHome>),
+    /// The newest map of this floor is doubted.
+    Doubt(u16),
     /// What robots have learnt of themselves.
     Learnt(Box<StoredLearnings>),
     /// The loads of motors.
@@ -244,6 +246,9 @@ impl Host {
         let run = self.outputs.run.take();
         let learnt = self.outputs.learnt.take();
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
+        if let Some(floor) = self.outputs.doubted_floor.take() {
+            self.note_write(|| KeptWrite::Doubt(floor));
+        }
         if let Some(kept) = self.outputs.home.take() {
             self.note_write(|| KeptWrite::Home(Box::new(kept.clone())));
             self.floors.keep(kept);

@@ -58,6 +58,8 @@ pub(crate) struct BrainSession {
     loading_floor: Option<LoadingFloor>,
     /// What a run has left, until it is written down.
     leaving_home: Option<LeavingHome>,
+    /// What this run has shown of the map with which it began went to the disk.
+    is_trial_told: bool,
     /// The floor whose map the brain has; `None` while the floor is unknown.
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
@@ -97,6 +99,7 @@ impl BrainSession {
             next: None,
             loading_floor: None,
             leaving_home: None,
+            is_trial_told: false,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             storey_resolver: None,
             hands: Hands::default(),
@@ -156,6 +159,7 @@ impl BrainSession {
     /// Replaces the brain. Its map gets a revision that no earlier one had.
     fn replace(&mut self, brain: Brain) {
         self.home_base = self.home_revision().wrapping_add(1);
+        self.is_trial_told = false;
         self.brain = brain;
     }
 
@@ -340,7 +344,7 @@ impl BrainSession {
         } else {
             let home = self.leaving_home.as_mut()?.go_on()?;
             self.leaving_home = None;
-            return Some(home).filter(|left| !left.home.is_empty());
+            return Some(self.with_trial_once(home)).filter(|left| !left.home.is_empty());
         }
         None
     }
@@ -367,22 +371,6 @@ impl BrainSession {
             Some(_) if self.brain.estimate().lost => Err("place-unknown"),
             Some(_) => Ok(()),
         }
-    }
-
-    /// Begins to write down the home as it is worth keeping; [`Self::prepare`] goes on. Nothing begins while the floor is unknown or
-    /// the robot is lost.
-    pub(crate) fn begin_keeping_home(&mut self) {
-        let floor = self.floor.filter(|_| !self.brain.estimate().lost);
-        self.leaving_home = floor.map(|floor| LeavingHome::of(&self.brain, floor));
-    }
-
-    /// The home as it is worth keeping, with its floor, at once: for a robot at rest. It replaces what is being written down. `None`
-    /// while the floor is unknown or the robot is lost.
-    pub(crate) fn home_to_keep(&mut self) -> Option<FloorHome> {
-        self.leaving_home = None;
-        let floor = self.floor.filter(|_| !self.brain.estimate().lost)?;
-        let home = self.brain.map().stored();
-        (!home.is_empty()).then_some(FloorHome { floor, home })
     }
 
     /// One step with the present observation.

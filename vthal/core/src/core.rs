@@ -33,7 +33,7 @@ use crate::desk::standstills::StandstillDesk;
 use crate::desk::system_zone::SystemZoneDesk;
 use crate::device::DeviceCommand;
 use crate::learnt::RobotRecord;
-use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outputs, RunEnd};
+use crate::{Checkpoints, ClientId, CoreConfig, Input, LinkLoss, Outputs, RunEnd};
 
 /// The brain is called at least this often while there is one.
 const STEP_MAX_US: u64 = 100_000;
@@ -168,9 +168,9 @@ impl Core {
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
             Input::MapRestored { floor, number, home } => {
-                let kept = FloorHome { floor, home };
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                let (restored, session) = (RestoredMap { number, kept }, self.brain_session.as_mut());
+                let (restored, session) =
+                    (RestoredMap::new(number, floor, home), self.brain_session.as_mut());
                 self.floors.map_restored(&restored, session, &mut teller);
             }
             Input::FloorsKept { task, floors, made } => {
@@ -267,7 +267,7 @@ impl Core {
             if self.config.checkpoints == Checkpoints::On {
                 outputs.checkpoint = Some(checkpoint_without_job(brain_session));
             }
-            outputs.home = brain_session.home_to_keep();
+            outputs.home = brain_session.home_left();
             let mut recorder = Recorder::new(self.config.recording, outputs);
             brain_session.end_run(now_us, RunEnd::Shutdown, &mut recorder);
         }

@@ -1,6 +1,6 @@
 //! What the shell must perform.
 
-use brain::{Actions, Command, Observation, RoomName, StoredMap};
+use brain::{Actions, Command, MapTrial, Observation, RoomName, StoredMap};
 use rvac_api::{
     CalibrationAnswer, DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update,
 };
@@ -34,6 +34,8 @@ pub struct Outputs {
     pub calibration_orders: Vec<CalibrationOrder>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
+    /// The floor whose newest map the robot doubts from now on.
+    pub doubted_floor: Option<u16>,
     /// Maps that clients have changed, in order.
     pub map_edits: Vec<EditedMap>,
     /// Orders of clients about floors, in order.
@@ -195,6 +197,8 @@ pub struct FloorHome {
     pub floor: u16,
     /// What is known of it.
     pub home: StoredMap,
+    /// What the run that leaves it has shown of the map with which it began.
+    pub trial: Option<MapTrial>,
 }
 
 /// Something that the shell does with the floors that are kept: it says what they are then with
@@ -303,6 +307,7 @@ impl Outputs {
         self.home = None;
         self.calibration_orders.clear();
         self.map_orders.clear();
+        self.doubted_floor = None;
         self.floor_orders.clear();
         self.archive_orders.clear();
         self.mix_orders.clear();

@@ -113,6 +113,7 @@ const fn map_doubt(doubt: MapDoubt) -> rvac_api::MapDoubt {
     match doubt {
         MapDoubt::MappedNotMet => rvac_api::MapDoubt::MappedNotMet,
         MapDoubt::MetNotMapped => rvac_api::MapDoubt::MetNotMapped,
+        MapDoubt::PlaceNotInMap => rvac_api::MapDoubt::PlaceNotInMap,
     }
 }
 

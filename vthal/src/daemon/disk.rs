@@ -124,6 +124,16 @@ impl Daemon {
         self.handle(Input::Refused { client, failure });
     }
 
+    /// A doubt is of the map that is the newest before what the run has left.
+    pub(super) fn keep_maps(&mut self) {
+        if let Some(floor) = self.outputs.doubted_floor.take() {
+            self.wiring.checkpoints.send_doubt(floor);
+        }
+        if let Some(home) = self.outputs.home.take() {
+            self.wiring.checkpoints.send_home(home);
+        }
+    }
+
     pub(super) fn order_map(&mut self, order: MapOrder) {
         if !self.wiring.checkpoints.order(order) {
             let (MapOrder::List { client, id, .. } | MapOrder::Restore { client, id, .. }) = order;

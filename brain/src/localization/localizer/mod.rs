@@ -16,6 +16,7 @@ use super::lift::Lift;
 use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
+use super::particles::PoseSpread;
 use super::reference_map::ReferenceMap;
 use super::reverse_budget::ReverseBudget;
 use super::rssi_fingerprint::RssiFingerprints;
@@ -252,7 +253,13 @@ impl Localization {
             && is_better
             && let Some(dock) = place.pose()
         {
-            tracker.place_at(dock, PLACING.dock_sigma_m, PLACING.dock_sigma_rad);
+            tracker.place_on_dock(
+                dock,
+                PoseSpread {
+                    sigma_m: PLACING.dock_sigma_m,
+                    sigma_rad: PLACING.dock_sigma_rad,
+                },
+            );
             self.odometry.calibration.interrupt();
             self.beacons.place_at(dock);
             self.set_pose(dock);
@@ -400,7 +407,13 @@ impl Localization {
     /// Why the known map is doubted, with the share that speaks against it; `None` = it is not, or there is none.
     #[must_use]
     pub(crate) fn map_doubt(&self) -> Option<(MapDoubt, f64)> {
-        self.estimator.known_map()?.tracker.map_check().doubt()
+        self.estimator.known_map()?.tracker.map_doubt()
+    }
+
+    /// Whether much of the known map was met, and nothing made it doubtful.
+    pub(crate) fn map_held(&self) -> bool {
+        let known = self.estimator.known_map();
+        known.is_some_and(|known| known.tracker.has_map_held())
     }
 
     /// Reversed distance in metres that the robot has not driven forward again, 0..=0.15: no sensor has seen that floor.

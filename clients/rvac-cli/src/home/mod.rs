@@ -71,10 +71,23 @@ fn show(job: &MapJob) -> anyhow::Result<ExitCode> {
     } = known::ask(&mut Connection::open(&job.daemon)?)?;
     if job.json {
         writeln!(stdout(), "{text}")?;
-    } else {
-        write!(stdout(), "{}", in_words(&home, estimate, pose))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    write!(stdout(), "{}", in_words(&home, estimate, pose))?;
+    if estimate.is_some_and(|estimate| estimate.map_doubt.is_some()) {
+        let maps = kept_maps(&mut Connection::open(&job.daemon)?, None)?;
+        write!(stdout(), "{}", way_back(&maps))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// How to come back to the map as it was before it was spoilt; empty when no such version is known.
+fn way_back(maps: &[KeptMap]) -> String {
+    let good = maps.iter().find(|map| map.last_good);
+    good.map_or_else(String::new, |map| {
+        let number = map.number;
+        format!("last good map backup: {number}; rvac map restore {number} takes it up\n")
+    })
 }
 
 fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> String {
@@ -208,18 +221,18 @@ fn doors_of(home: &HomeView, room: u16) -> String {
 fn list(daemon: &Daemon, floor: Option<&str>) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(daemon)?;
     let floor = floor_meant(&mut connection, floor)?;
-    let request = RequestBody::Maps { floor };
-    let maps = control::answer(
-        &mut connection,
-        request,
-        control::ANSWER,
-        |update, _| match update {
-            Update::Maps { maps, .. } => Some(maps),
-            _ => None,
-        },
-    )?;
+    let maps = kept_maps(&mut connection, floor)?;
     write!(stdout(), "{}", table(&maps, now_s()))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The versions of the map of a floor, else of that on which the robot is, newest first.
+fn kept_maps(connection: &mut Connection, floor: Option<u16>) -> anyhow::Result<Vec<KeptMap>> {
+    let request = RequestBody::Maps { floor };
+    control::answer(connection, request, control::ANSWER, |update, _| match update {
+        Update::Maps { maps, .. } => Some(maps),
+        _ => None,
+    })
 }
 
 fn now_s() -> u64 {
@@ -233,9 +246,14 @@ fn table(maps: &[KeptMap], now_s: u64) -> String {
     }
     let mut text = "number  kept             floor     rooms\n".to_owned();
     for (place, map) in maps.iter().enumerate() {
-        let newest = if place == 0 { "  newest" } else { "" };
+        let marks = [
+            (place == 0, "  newest"),
+            (map.doubted, "  doubted"),
+            (map.last_good, "  last good"),
+        ];
+        let marks: String = marks.iter().filter(|mark| mark.0).map(|mark| mark.1).collect();
         text += &format!(
-            "{:<7} {:<16} {:>6.1} m2 {:>5}{newest}\n",
+            "{:<7} {:<16} {:>6.1} m2 {:>5}{marks}\n",
             map.number,
             age(now_s.saturating_sub(map.kept_s)),
             map.area_m2,
@@ -256,8 +274,25 @@ fn age(seconds: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{age, doors_of, sure_of};
-    use rvac_api::{DoorView, HomeView, SurenessView};
+    use super::{age, doors_of, sure_of, way_back};
+    use rvac_api::{DoorView, HomeView, KeptMap, SurenessView};
+
+    #[test]
+    fn the_way_back_names_the_last_good_version() {
+        let kept = |number: u64, last_good: bool| KeptMap {
+            number,
+            kept_s: 0,
+            area_m2: 20.0,
+            rooms: 2,
+            doubted: !last_good,
+            last_good,
+        };
+        assert_eq!(
+            way_back(&[kept(7, false), kept(6, true)]),
+            "last good map backup: 6; rvac map restore 6 takes it up\n"
+        );
+        assert_eq!(way_back(&[kept(7, false)]), "");
+    }
 
     #[test]
     fn ages_are_shown_roughly() {

@@ -243,6 +243,8 @@ fn at_home(request: &Request) -> Vec<Update> {
         kept_s: 0,
         area_m2: f64::from(number),
         rooms: number,
+        doubted: number == 12,
+        last_good: number == 11,
     };
     match &request.body {
         RequestBody::Watch { .. } => vec![
@@ -898,7 +900,15 @@ fn kept_maps_are_listed_and_one_is_asked_back() {
     let (output, _) = Daemon::start(at_home).rvac(&["map", "list"], "");
     let words = text(&output.stdout);
     let row = words.lines().nth(1).expect("a row");
-    assert!(row.starts_with("12 ") && row.ends_with("12  newest"), "{words}");
+    assert!(
+        row.starts_with("12 ") && row.ends_with("12  newest  doubted"),
+        "{words}"
+    );
+    let row = words.lines().nth(2).expect("a second row");
+    assert!(
+        row.starts_with("11 ") && row.ends_with("11  last good"),
+        "{words}"
+    );
     let (output, asked) = Daemon::start(at_home).rvac(&["map", "restore", "11"], "");
     assert!(output.status.success(), "{output:?}");
     assert_eq!(

@@ -4,8 +4,9 @@
 //! commanded waits for the next one, in its order.
 
 use brain::config::BrainConfig;
-use brain::{Brain, CheckpointWork, LoadedHome, MapLoader, MapWriter, StoredMap};
+use brain::{Brain, CheckpointWork, LoadedHome, MapLoader, MapTrial, MapWriter, StoredMap};
 
+use super::BrainSession;
 use crate::{FloorHome, RunCause};
 
 /// A run that is about to begin.
@@ -66,6 +67,7 @@ impl NextRun {
 pub(super) struct LeavingHome {
     floor: u16,
     home: MapWriter,
+    trial: Option<MapTrial>,
 }
 
 impl LeavingHome {
@@ -74,6 +76,7 @@ impl LeavingHome {
         Self {
             floor,
             home: brain.map().begin_storing(),
+            trial: brain.map_trial(),
         }
     }
 
@@ -83,7 +86,44 @@ impl LeavingHome {
         Some(FloorHome {
             floor: self.floor,
             home,
+            trial: self.trial,
         })
+    }
+}
+
+impl BrainSession {
+    /// Begins to write down the home as it is worth keeping; [`Self::prepare`] goes on. Nothing begins while the floor is unknown or
+    /// the robot is lost.
+    pub(crate) fn begin_keeping_home(&mut self) {
+        let floor = self.floor.filter(|_| !self.brain.estimate().lost);
+        self.leaving_home = floor.map(|floor| LeavingHome::of(&self.brain, floor));
+    }
+
+    /// The home as it is worth keeping, with its floor, at once: for a robot at rest. It replaces what is being written down. `None`
+    /// while the floor is unknown or the robot is lost.
+    pub(crate) fn home_to_keep(&mut self) -> Option<FloorHome> {
+        self.leaving_home = None;
+        let floor = self.floor.filter(|_| !self.brain.estimate().lost)?;
+        let home = self.brain.map().stored();
+        (!home.is_empty()).then_some(FloorHome {
+            floor,
+            home,
+            trial: None,
+        })
+    }
+
+    /// As [`Self::home_to_keep`], with what the run has shown of the map with which it began.
+    pub(crate) fn home_left(&mut self) -> Option<FloorHome> {
+        let trial = self.brain.map_trial();
+        let home = self.home_to_keep()?;
+        Some(self.with_trial_once(FloorHome { trial, ..home }))
+    }
+
+    /// A run's trial is of the map before it, so it must not be told again with the map that it has left.
+    pub(super) fn with_trial_once(&mut self, home: FloorHome) -> FloorHome {
+        let trial = home.trial.filter(|_| !self.is_trial_told);
+        self.is_trial_told |= trial.is_some();
+        FloorHome { trial, ..home }
     }
 }
 

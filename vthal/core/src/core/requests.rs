@@ -250,7 +250,7 @@ impl Core {
         if let Some(brain_session) = self.brain_session.as_mut().filter(|_| is_here) {
             // A recording that is about to end ends before, because a replay would know nothing of this.
             if brain_session.is_recorded() {
-                outputs.home = brain_session.home_to_keep();
+                outputs.home = brain_session.home_left();
                 let mut recorder = Recorder::new(self.config.recording, outputs);
                 brain_session.end_run(now_us, RunEnd::Finished, &mut recorder);
             }

@@ -1,6 +1,6 @@
 //! One step of the brain, and what it asks for.
 
-use brain::{Actions, BehaviorState, Command, Decision, EditError, Motion};
+use brain::{Actions, BehaviorState, Command, Decision, DecisionKind, EditError, Motion};
 use rvac_api::{Evidence, LogLevel};
 
 use super::Core;
@@ -42,6 +42,10 @@ impl Core {
             return;
         };
         let actions = brain_session.step(&mut Recorder::new(recording, outputs));
+        let has_doubted = |decision: &Decision| decision.kind == DecisionKind::DoubtMap;
+        if actions.decisions.iter().any(has_doubted) {
+            outputs.doubted_floor = brain_session.floor();
+        }
         if was_recorded && !brain_session.is_recorded() {
             brain_session.begin_keeping_home();
             self.keep_learnt(outputs);

@@ -1,6 +1,6 @@
 //! Requests of clients about floors, and what clients receive of them.
 
-use brain::RoomName;
+use brain::{RoomName, StoredMap};
 use rvac_api::{FloorQuestion, FloorsView, LogLevel};
 
 use super::audience::{Asker, Asking, Teller};
@@ -46,6 +46,18 @@ pub(crate) struct RestoredMap {
     /// Number of the version, for the log.
     pub(crate) number: u64,
     pub(crate) kept: FloorHome,
+}
+
+impl RestoredMap {
+    /// No run has left it.
+    pub(crate) const fn new(number: u64, floor: u16, home: StoredMap) -> Self {
+        let kept = FloorHome {
+            floor,
+            home,
+            trial: None,
+        };
+        Self { number, kept }
+    }
 }
 
 /// The floors of the home.

@@ -356,7 +356,9 @@ impl OpenRun {
         let floor_m2 = brain.and_then(|brain| picture::floor_m2(brain.map(), &run.job));
         let swept_share = floor_m2.map(|floor_m2| (self.figures.swept_m2 / floor_m2).min(1.0));
         // A share of the floor that a wrong map shows says nothing of the home.
-        run.share = self.covered.or(swept_share).filter(|_| !self.is_map_doubted);
+        // A run that goes on after a restart learns of the doubt from the brain alone.
+        let is_doubted = self.is_map_doubted || brain.is_some_and(|brain| brain.map_doubt().is_some());
+        run.share = self.covered.or(swept_share).filter(|_| !is_doubted);
         record
     }
 

@@ -3,8 +3,8 @@
 use brain::geometry::{Point2, Pose2};
 use brain::mapping::{Cell, Hazard, HazardKind, PathPoint, SweptRun};
 use brain::{
-    Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, StrategyName,
-    TrackingCheckpoint,
+    Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, MapDoubt,
+    StrategyName, TrackingCheckpoint,
 };
 use serde::{Deserialize, Serialize};
 use vthal_core::stored_map;
@@ -40,6 +40,9 @@ pub struct BrainState {
     /// Shares of the charge that a second of cleaning and of driving takes, and the seconds from which that was learnt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<[f64; 3]>,
+    /// Why the map of the home is doubted; absent = it is not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    map_doubt: Option<String>,
 }
 
 fn is_zero(value: &u32) -> bool {
@@ -115,6 +118,7 @@ impl From<&Checkpoint> for BrainState {
             energy: Some(checkpoint.energy)
                 .filter(|energy| energy.seen_s > 0.0)
                 .map(|energy| [energy.cleaning_per_s, energy.driving_per_s, energy.seen_s]),
+            map_doubt: checkpoint.map_doubt.map(|doubt| doubt.name().to_owned()),
         }
     }
 }
@@ -133,6 +137,7 @@ impl BrainState {
             Some(text) => Some(stored_map::decode(&from_hex(text)?).ok()?),
         };
         Some(Checkpoint {
+            map_doubt: to_doubt(self.map_doubt.as_deref())?,
             pose: Pose2 {
                 x_m,
                 y_m,
@@ -191,6 +196,11 @@ impl BrainState {
             ),
         })
     }
+}
+
+/// A doubt by its name; `None` if this version does not know it.
+fn to_doubt(name: Option<&str>) -> Option<Option<MapDoubt>> {
+    name.map_or(Some(None), |name| MapDoubt::from_name(name).map(Some))
 }
 
 fn to_hex(bytes: &[u8]) -> String {
@@ -292,7 +302,7 @@ impl JobState {
 mod tests {
     use brain::{
         Cell, CellKnowledge, Checkpoint, CleaningOrder, EnergyModel, HomePart, JobCheckpoint, JobFigures,
-        JobKind, Pose2, Raster, StoredMap, StrategyName, TrackingCheckpoint,
+        JobKind, MapDoubt, Pose2, Raster, StoredMap, StrategyName, TrackingCheckpoint,
     };
 
     use super::{BrainState, from_hex, to_hex};
@@ -322,6 +332,7 @@ mod tests {
                 driving_per_s: 1e-4,
                 seen_s: 300.0,
             },
+            map_doubt: Some(MapDoubt::MetNotMapped),
             ..Checkpoint::default()
         };
         let text = serde_json::to_string(&BrainState::from(&checkpoint)).expect("plain");

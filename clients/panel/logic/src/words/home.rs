@@ -16,6 +16,8 @@ screen! {
         room_many[1]: "{0} rooms", "{0} tuba";
         map[1]: "Map {0}", "Kaart {0}";
         in_use: "in use", "kasutusel";
+        was_doubted: "doubted", "kahtlane";
+        last_good: "last good", "viimane hea";
         restore_map[1]: "Restore map {0}", "Taasta kaart {0}";
         take_up: "Restore", "Taasta";
         floors: "Floors", "Korrused";
