@@ -27,6 +27,7 @@ use crate::clock::Clock;
 use crate::event::{Event, LinkEvent};
 use crate::imu::ImuEvent;
 use crate::link::LineOrder;
+use crate::load_meter::LoadMeter;
 use crate::outbox::Class;
 use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
@@ -81,6 +82,7 @@ pub(crate) struct Daemon {
     clients_seen: u64,
     congested: bool,
     calibration: Option<CalibrationSession>,
+    load: LoadMeter,
     /// When the wall clock is read again.
     wall_due_us: u64,
     /// When the daemon gives up waiting for the wheels; `None` until it is ordered to end.
@@ -100,6 +102,7 @@ impl Daemon {
             clients_seen: 0,
             congested: false,
             calibration: None,
+            load: LoadMeter::default(),
             wall_due_us: 0,
             ends_at: None,
         }
@@ -142,6 +145,8 @@ impl Daemon {
             self.wall_due_us = now_us + WALL_US;
             let utc_s = self.clock.utc_s();
             self.handle(Input::WallClock { utc_s });
+            let load = self.load.reading();
+            self.handle(Input::Load(load));
             for ToldLine { level, text } in self.wiring.told.take() {
                 self.handle(Input::Told { level, text });
             }
@@ -323,8 +328,10 @@ impl Daemon {
 
     fn handle(&mut self, input: Input<'_>) {
         let now_us = self.clock.now_us();
+        let began = Instant::now();
         self.core.handle(now_us, input, &mut self.outputs);
         self.perform();
+        self.load.count(began.elapsed());
         if let Some(lights) = &mut self.wiring.lights {
             lights.show(self.core.lights());
         }

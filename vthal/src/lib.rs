@@ -25,6 +25,7 @@ mod kept_store;
 mod learnt_file;
 mod lifetime_file;
 mod link;
+mod load_meter;
 mod logging;
 #[cfg_attr(
     not(test),

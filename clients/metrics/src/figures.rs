@@ -91,6 +91,7 @@ impl Figures {
             "Version of the daemon.",
             ("vthal", versions),
         );
+        self.computer(&mut page);
         self.state(&mut page);
         self.battery(&mut page);
         self.link(&mut page);
@@ -99,6 +100,28 @@ impl Figures {
         self.counters(&mut page);
         self.lifetime(&mut page);
         page.into_text()
+    }
+
+    /// What the daemon takes of its computer.
+    fn computer(&self, page: &mut Page) {
+        let Some(load) = self.known.device.as_ref().and_then(|device| device.daemon) else {
+            return;
+        };
+        page.figure(
+            ("rvac_daemon_resident_memory_bytes", Gauge),
+            "Memory that the daemon uses.",
+            load.memory_bytes.map(|bytes| bytes as f64),
+        );
+        page.figure(
+            ("rvac_daemon_busy_seconds_total", Counter),
+            "Time for which the daemon's loop has worked since its start: the brain, and all else between two waits.",
+            Some(load.busy_s),
+        );
+        page.figure(
+            ("rvac_daemon_longest_turn_seconds", Gauge),
+            "The longest that the daemon's loop worked at one thing in the last second.",
+            Some(load.longest_turn_ms / 1e3),
+        );
     }
 
     fn state(&self, page: &mut Page) {
@@ -399,7 +422,7 @@ impl Figures {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::{Evidence, Pose, Standstill, Status, Update};
+    use rvac_api::{DaemonLoad, DeviceTable, Evidence, Pose, Standstill, Status, Update};
 
     use super::Figures;
 
@@ -435,8 +458,19 @@ mod tests {
             reason: "slip".to_owned(),
             ..Status::default()
         }));
+        figures.take(&Update::Device(DeviceTable {
+            daemon: Some(DaemonLoad {
+                memory_bytes: None,
+                busy_s: 12.5,
+                longest_turn_ms: 2.0,
+            }),
+            ..DeviceTable::default()
+        }));
         let page = figures.page();
+        assert!(!page.contains("rvac_daemon_resident_memory_bytes"), "{page}");
         for line in [
+            "rvac_daemon_busy_seconds_total 12.5\n",
+            "rvac_daemon_longest_turn_seconds 0.002\n",
             "rvac_stops_total{reason=\"slip\"} 2\n",
             "rvac_stops_total{reason=\"other\"} 1\n",
             "rvac_activity{activity=\"stuck\"} 1\n",

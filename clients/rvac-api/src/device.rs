@@ -46,6 +46,22 @@ pub struct DeviceTable {
     pub dust_box: Option<bool>,
     /// On the dock.
     pub docked: bool,
+    /// What the daemon takes of its computer; absent in its first second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub daemon: Option<DaemonLoad>,
+}
+
+/// What the daemon takes of its computer, measured once a second.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+pub struct DaemonLoad {
+    /// Memory in use, bytes; absent where the system does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory_bytes: Option<u64>,
+    /// Seconds for which its loop has worked since its start: the brain, and all else between two waits.
+    pub busy_s: f64,
+    /// The longest that it worked at one thing in the last second, ms. Nothing else is answered meanwhile.
+    pub longest_turn_ms: f64,
 }
 
 /// Battery readings.

@@ -42,7 +42,7 @@ pub use activity::{Activity, ActivityWords};
 pub use calibration::{CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue};
 pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
-pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};
+pub use device::{BatteryReading, ChargerReading, DaemonLoad, DeviceTable, LinkReading};
 pub use example::example_of;
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,

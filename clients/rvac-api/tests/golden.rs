@@ -7,11 +7,11 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue,
-    CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth, Decision, DeviceTable,
-    DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure, FloorQuestion, FloorView,
-    FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
-    LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt, MapSnapshot, NoGoShape, NoGoView,
-    PartCare, PartHours, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request,
+    CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth, DaemonLoad, Decision,
+    DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure, FloorQuestion,
+    FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
+    LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt, MapSnapshot, NoGoShape,
+    NoGoView, PartCare, PartHours, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request,
     RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
     RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
     ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
@@ -881,9 +881,14 @@ fn the_device_table() {
         cleaners: [true, true, false],
         dust_box: Some(true),
         docked: false,
+        daemon: Some(DaemonLoad {
+            memory_bytes: Some(20_000_000),
+            busy_s: 12.5,
+            longest_turn_ms: 1.5,
+        }),
     };
     let golden = format!(
-        r#"{{"e":"device","versions":{VERSIONS},"battery":{{"charge":0.5,"voltage_v":15.5,"current_a":-1.5,"temperature_c":25.0,"state":"discharging"}},"main_loop_hz":1000,"bytes_out_per_s":100.0,"bytes_in_per_s":200.0,"link":{{"up":true,"age_ms":12,"bad_share":0.25,"round_trip_ms":2.5,"resets":1,"reset_cause":"power-on","reconnects":0,"binary":true}},"wheel_left_m_per_s":0.25,"wheel_right_m_per_s":0.5,"bumpers":[true,false],"cliffs":[false,true,false],"wheel_drops":[false,false],"proximity":[0.5],"currents_a":[0.25,0.5,0.75],"cleaners":[true,true,false],"dust_box":true,"docked":false}}"#
+        r#"{{"e":"device","versions":{VERSIONS},"battery":{{"charge":0.5,"voltage_v":15.5,"current_a":-1.5,"temperature_c":25.0,"state":"discharging"}},"main_loop_hz":1000,"bytes_out_per_s":100.0,"bytes_in_per_s":200.0,"link":{{"up":true,"age_ms":12,"bad_share":0.25,"round_trip_ms":2.5,"resets":1,"reset_cause":"power-on","reconnects":0,"binary":true}},"wheel_left_m_per_s":0.25,"wheel_right_m_per_s":0.5,"bumpers":[true,false],"cliffs":[false,true,false],"wheel_drops":[false,false],"proximity":[0.5],"currents_a":[0.25,0.5,0.75],"cleaners":[true,true,false],"dust_box":true,"docked":false,"daemon":{{"memory_bytes":20000000,"busy_s":12.5,"longest_turn_ms":1.5}}}}"#
     );
     check(&Update::Device(table), &golden);
 }

@@ -8,7 +8,7 @@ mod hand;
 mod requests;
 mod thinking;
 
-use rvac_api::{LogLevel, Topic};
+use rvac_api::{DaemonLoad, LogLevel, Topic};
 
 use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::audience::Audience;
@@ -78,6 +78,8 @@ pub struct Core {
     estimates: EstimateDesk,
     checkpoints: CheckpointClock,
     feed: Feed,
+    /// What the shell measured last of the daemon.
+    load: Option<DaemonLoad>,
 }
 
 impl Core {
@@ -111,6 +113,7 @@ impl Core {
             estimates: EstimateDesk::default(),
             checkpoints: CheckpointClock::default(),
             feed: Feed::default(),
+            load: None,
             config,
         }
     }
@@ -162,6 +165,7 @@ impl Core {
                 self.audience.clients.forget(client);
             }
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
+            Input::Load(load) => self.load = Some(load),
             Input::SystemZone(reading) => self.set_system_zone(now_us, reading, outputs),
             Input::RecordingOpened { run, name } => self.history.recorded_as(run, name),
             Input::CalibrationOver => self.calibration.over(),
@@ -324,6 +328,7 @@ impl Core {
             floors: &self.floors,
             driver: driver.map(|client| self.audience.clients.name(client)),
             config: &self.config,
+            load: self.load,
         };
         let mut teller = self.audience.teller(now, outputs);
         self.feed.feed(&sources, &mut teller);

@@ -2,7 +2,7 @@
 
 use brain::StoredMap;
 use brain::observation::BeaconSignal;
-use rvac_api::{Failure, LogLevel, Request, Run};
+use rvac_api::{DaemonLoad, Failure, LogLevel, Request, Run};
 
 use crate::schedule::ZoneReading;
 use crate::{FloorTask, KeptFloor};
@@ -91,6 +91,8 @@ pub enum Input<'a> {
         /// What it shows.
         utc_s: i64,
     },
+    /// What the daemon takes of its computer, at least once a second.
+    Load(DaemonLoad),
     /// What the system says of its time zone, before the first clock and when it has changed. Until then schedules are in UTC.
     SystemZone(ZoneReading),
     /// The schedules of [`crate::Outputs::schedules`] are on the disk, or are not.

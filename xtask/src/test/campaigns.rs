@@ -50,7 +50,7 @@ pub(super) fn faults(extent: Extent) -> Result {
         on_chip.arg(firmware::usual_elf()?);
         commands.push(on_chip);
     }
-    checks(&mut commands)
+    checks_side_by_side(commands)
 }
 
 /// The demo cleans without a browser; with the campaigns the emulated robot does, too.

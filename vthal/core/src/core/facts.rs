@@ -120,6 +120,7 @@ impl Core {
             floors: &self.floors,
             driver: driver.map(|client| self.audience.clients.name(client)),
             config: &self.config,
+            load: self.load,
         }
     }
 

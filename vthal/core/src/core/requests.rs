@@ -158,6 +158,7 @@ impl Core {
             floors: &self.floors,
             driver: None,
             config: &self.config,
+            load: self.load,
         };
         self.feed.first_home(&sources, now_us)
     }

@@ -1,7 +1,7 @@
 //! What clients can be shown at this moment, put together from what the desks know.
 
 use brain::{BehaviorState, Brain, LinkFault};
-use rvac_api::{API_VERSION, DeviceTable, HomeView, Pose, RoomHere, Status, Topic, Update};
+use rvac_api::{API_VERSION, DaemonLoad, DeviceTable, HomeView, Pose, RoomHere, Status, Topic, Update};
 
 use super::floors::FloorDesk;
 use super::link::LinkDesk;
@@ -17,6 +17,8 @@ pub(crate) struct Sources<'a> {
     /// The name of whoever drives.
     pub(crate) driver: Option<String>,
     pub(crate) config: &'a CoreConfig,
+    /// What the daemon takes, as far as the shell has measured it.
+    pub(crate) load: Option<DaemonLoad>,
 }
 
 impl Sources<'_> {
@@ -93,7 +95,10 @@ impl Sources<'_> {
     }
 
     pub(crate) fn device_table(&self, now_us: u64) -> DeviceTable {
-        self.link.table(now_us, &self.config.version)
+        DeviceTable {
+            daemon: self.load,
+            ..self.link.table(now_us, &self.config.version)
+        }
     }
 
     /// Answer to `hello`.
