@@ -144,9 +144,10 @@ impl MapFolder {
     }
 
     fn note_trial(&self, trial: MapTrial, versions: (u64, u64)) -> io::Result<()> {
-        let mut trials = MapTrials::load(&self.path);
-        trials.note(trial, versions);
-        trials.save(&self.path, &self.numbers())
+        let numbers = self.numbers();
+        MapTrials::change(&self.path, &numbers, |trials| {
+            trials.note(trial, versions, &numbers)
+        })
     }
 
     /// The numbers that nothing of the floor has had yet, and what is wrong with the file that holds them. They lie beside the maps,
@@ -256,9 +257,7 @@ impl MapFolder {
         let home = home.numbered_after(self.next_numbers().0.after(self.next_numbers_of_maps()));
         self.save(&home)?;
         if let Some(copy) = self.newest_number() {
-            let mut trials = MapTrials::load(&self.path);
-            trials.copy(number, copy);
-            trials.save(&self.path, &self.numbers())?;
+            MapTrials::change(&self.path, &self.numbers(), |trials| trials.copy(number, copy))?;
         }
         Ok(home)
     }

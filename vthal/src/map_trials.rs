@@ -30,21 +30,25 @@ impl MapTrials {
         kept.value.unwrap_or_default()
     }
 
-    /// Writes down what is known of those of these numbers, if that is news.
+    /// Changes what is known of the versions in a folder, which have these numbers, and writes it down if that is news.
     ///
     /// # Errors
     /// What the file system says.
-    pub(crate) fn save(mut self, folder: &Path, numbers: &[u64]) -> io::Result<()> {
-        self.held.retain(|number| numbers.contains(number));
-        self.doubted.retain(|number| numbers.contains(number));
-        if self == Self::load(folder) {
+    pub(crate) fn change(folder: &Path, numbers: &[u64], change: impl FnOnce(&mut Self)) -> io::Result<()> {
+        let before = Self::load(folder);
+        let mut trials = before.clone();
+        change(&mut trials);
+        trials.held.retain(|number| numbers.contains(number));
+        trials.doubted.retain(|number| numbers.contains(number));
+        if trials == before {
             return Ok(());
         }
-        replace_json(&folder.join(FILE), &self)
+        replace_json(&folder.join(FILE), &trials)
     }
 
-    /// A run began with version `base` and has left `left`. A doubt is also of what people have changed since the last version that held.
-    pub(crate) fn note(&mut self, trial: MapTrial, (base, left): (u64, u64)) {
+    /// A run began with version `base` and has left `left`; these are the versions that there are. A doubt is also of what people have
+    /// changed since the last version that held.
+    pub(crate) fn note(&mut self, trial: MapTrial, (base, left): (u64, u64), numbers: &[u64]) {
         match trial {
             MapTrial::Held => {
                 self.held.insert(base);
@@ -53,7 +57,9 @@ impl MapTrials {
             MapTrial::Doubted => {
                 self.held.remove(&base);
                 let held = self.held.last().map_or(base, |held| held.saturating_add(1));
-                self.doubted.extend(held.min(base)..=left);
+                let since = held.min(base)..=left;
+                self.doubted
+                    .extend(numbers.iter().filter(|number| since.contains(number)));
             }
         }
     }
@@ -93,18 +99,21 @@ mod tests {
 
     use super::MapTrials;
 
+    /// The versions that there are.
+    const NUMBERS: [u64; 9] = [9, 8, 7, 6, 5, 4, 3, 2, 1];
+
     #[test]
     fn the_last_good_version_is_the_newest_that_a_run_has_found_right() {
         let mut trials = MapTrials::default();
         assert_eq!(trials.last_good(&[3, 2, 1]), None, "nothing is known of them");
-        trials.note(MapTrial::Held, (1, 2));
-        trials.note(MapTrial::Held, (2, 3));
+        trials.note(MapTrial::Held, (1, 2), &NUMBERS);
+        trials.note(MapTrial::Held, (2, 3), &NUMBERS);
         assert_eq!(
             trials.last_good(&[3, 2, 1]),
             Some(2),
             "no run has gone with what the last one left"
         );
-        trials.note(MapTrial::Doubted, (3, 4));
+        trials.note(MapTrial::Doubted, (3, 4), &NUMBERS);
         assert!(trials.is_doubted(3) && trials.is_doubted(4) && !trials.is_doubted(2));
         assert_eq!(trials.last_good(&[4, 3, 2, 1]), Some(2));
     }
@@ -112,9 +121,9 @@ mod tests {
     #[test]
     fn a_doubt_is_also_of_the_versions_that_people_made_of_the_bad_one() {
         let mut trials = MapTrials::default();
-        trials.note(MapTrial::Held, (5, 6));
+        trials.note(MapTrial::Held, (5, 6), &NUMBERS);
         // 7 and 8 are changes by people; the run began with 8 and left 9.
-        trials.note(MapTrial::Doubted, (8, 9));
+        trials.note(MapTrial::Doubted, (8, 9), &NUMBERS);
         assert!((6..=9).all(|number| trials.is_doubted(number)));
         assert_eq!(trials.last_good(&[9, 8, 7, 6, 5]), Some(5));
     }
@@ -122,7 +131,7 @@ mod tests {
     #[test]
     fn without_a_version_that_held_it_is_the_one_before_the_doubt() {
         let mut trials = MapTrials::default();
-        trials.note(MapTrial::Doubted, (3, 4));
+        trials.note(MapTrial::Doubted, (3, 4), &NUMBERS);
         assert_eq!(trials.last_good(&[5, 4, 3, 2, 1]), Some(2));
         assert_eq!(trials.last_good(&[4, 3]), None);
     }
@@ -130,13 +139,23 @@ mod tests {
     #[test]
     fn a_version_that_held_once_and_was_doubted_later_is_no_good_one_and_a_copy_is_as_its_original() {
         let mut trials = MapTrials::default();
-        trials.note(MapTrial::Held, (1, 2));
-        trials.note(MapTrial::Doubted, (1, 3));
+        trials.note(MapTrial::Held, (1, 2), &NUMBERS);
+        trials.note(MapTrial::Doubted, (1, 3), &NUMBERS);
         assert!(trials.is_doubted(1));
         trials.copy(1, 4);
         assert!(trials.is_doubted(4));
-        trials.note(MapTrial::Held, (5, 6));
+        trials.note(MapTrial::Held, (5, 6), &NUMBERS);
         trials.copy(5, 7);
         assert_eq!(trials.last_good(&[7, 6, 5, 4, 3, 2, 1]), Some(7));
+    }
+
+    /// Names of files come from outside, and a number may be any.
+    #[test]
+    fn a_number_far_from_the_others_costs_nothing() {
+        let mut trials = MapTrials::default();
+        trials.note(MapTrial::Held, (1, 2), &[1]);
+        let far = u64::MAX - 1;
+        trials.note(MapTrial::Doubted, (far, far), &[far, 2, 1]);
+        assert!(trials.is_doubted(far) && trials.is_doubted(2) && !trials.is_doubted(1));
     }
 }

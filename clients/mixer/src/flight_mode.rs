@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::left_out::is_none_ms;
 use crate::{Name, TrimValue};
 
 /// A flight mode.
@@ -15,16 +16,11 @@ pub struct FlightMode {
     /// The switch that must be on.
     pub when: Name,
     /// Time in which the outputs go over from the mode before, milliseconds.
-    #[serde(default, skip_serializing_if = "is_at_once")]
+    #[serde(default, skip_serializing_if = "is_none_ms")]
     pub fade_ms: u16,
     /// Trims that it has for itself; those of other outputs it shares with all other modes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub trims: Vec<TrimValue>,
-}
-
-// Serde wants references.
-fn is_at_once(value: &u16) -> bool {
-    *value == 0
 }
 
 /// Going over to another flight mode.

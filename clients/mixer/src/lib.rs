@@ -20,6 +20,7 @@ mod defaults;
 mod flight_mode;
 mod helm;
 mod input;
+mod left_out;
 mod line;
 mod line_step;
 mod mixer;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::left_out::{is_none_ms, is_zero};
 use crate::{Name, Source};
 
 /// How a line joins what the lines before it have made.
@@ -116,16 +117,8 @@ fn is_one(value: &f64) -> bool {
     *value == 1.0
 }
 
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
 fn is_false(value: &bool) -> bool {
     !*value
-}
-
-fn is_none_ms(value: &u16) -> bool {
-    *value == 0
 }
 
 fn is_add(mix: &Mix) -> bool {

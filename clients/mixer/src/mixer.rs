@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::flight_mode::Fade;
 use crate::line::Mix;
 use crate::line_step::{LineMemory, Slows, Step, is_on, read};
+use crate::readings::PRESSED;
 use crate::stop_buttons::StopButtons;
 use crate::switch::SwitchMemory;
 use crate::trim::{self, TrimButtons};
@@ -15,8 +16,6 @@ use crate::{
 
 /// A longer pause between two steps is a loss: the page slept, or the lid was closed.
 pub const GAP_MAX_US: u64 = 400_000;
-/// A button is pressed above this.
-const PRESSED: f64 = 0.5;
 
 /// Whether the outputs follow the inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,6 +7,8 @@ use crate::{Device, KeyCode, Name, Source};
 
 /// An input that left its place by so much is the one that a person means. Sticks at rest wander by less.
 const MOVED: f64 = 0.5;
+/// A button is pressed above this.
+pub(crate) const PRESSED: f64 = 0.5;
 
 /// What one pad reads.
 #[derive(Clone, Debug, Default, PartialEq)]

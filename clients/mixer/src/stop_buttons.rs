@@ -2,10 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use crate::readings::PRESSED;
 use crate::{OutputName, Profile, Readings, Source};
-
-/// A button is pressed above this.
-const PRESSED: f64 = 0.5;
 
 /// The buttons that stop, by their numbers, and which of them were seen free.
 #[derive(Clone, Debug, Default)]

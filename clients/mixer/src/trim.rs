@@ -4,12 +4,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::left_out::is_zero;
+use crate::readings::PRESSED;
 use crate::{FlightMode, OutputName, Source};
 
 /// Furthest that a trim goes to either side.
 pub const TRIM_MAX: f64 = 0.25;
-/// A button is pressed above this.
-const PRESSED: f64 = 0.5;
 
 /// A trim and its two buttons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,10 +46,6 @@ const fn usual_step() -> f64 {
 // Serde wants references.
 fn is_usual_step(value: &f64) -> bool {
     *value == usual_step()
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// The two buttons of a trim: a press counts once the button was seen free.

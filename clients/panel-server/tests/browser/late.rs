@@ -28,13 +28,9 @@ async fn a_part_of_the_page_that_does_not_come_is_asked_for_again() {
     browser.shot("phone-part-missing").await;
     // What drives and stops the robot came with the first picture.
     browser.press_start().await;
-    browser
-        .until("return document.getElementById('now')?.dataset.state === 'cleaning'")
-        .await;
+    browser.until_state(&["cleaning"]).await;
     browser.click("#stop").await;
-    browser
-        .until("return ['idle', 'docked'].includes(document.getElementById('now')?.dataset.state)")
-        .await;
+    browser.until_state(&["idle", "docked"]).await;
     block(browser, &[]);
     browser.click("#sheet-home button").await;
     browser
