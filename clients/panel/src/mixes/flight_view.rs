@@ -5,7 +5,7 @@ use mixer::{FlightMode, Mixed, TrimValue};
 use panel_logic::{Field, Group, MixDraft, ModePart, TrimPart, output_title};
 
 use super::field_view::FieldView;
-use super::group_parts::GroupTools;
+use super::group_parts::{GroupTools, group_list, switch_state};
 use super::{Bench, group_problem};
 
 use crate::language::words;
@@ -13,16 +13,11 @@ use crate::language::words;
 #[component]
 pub(super) fn Trims(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().trims.len()));
+    let trim = move |trim| view! { <TrimView bench trim /> }.into_any();
+    let add = move || bench.rearrange(MixDraft::add_trim);
     view! {
         <p class="hint">{words().mix.trims_hint}</p>
-        <ol class="trims">
-            <For each=move || 0..count.get() key=|trim| *trim let:trim>
-                <TrimView bench trim />
-            </For>
-        </ol>
-        <button type="button" class="small" id="add-trim" on:click=move |_| bench.rearrange(MixDraft::add_trim)>
-            {words().mix.add_trim}
-        </button>
+        {group_list("trims", (count, trim), ("add-trim", words().mix.add_trim), add)}
     }
 }
 
@@ -56,15 +51,11 @@ fn TrimView(bench: Bench, trim: usize) -> impl IntoView {
 #[component]
 pub(super) fn Modes(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().modes.len()));
-    let add = move |_| bench.rearrange(|draft| draft.add_mode(words()).unwrap_or_default());
+    let mode = move |mode| view! { <ModeView bench mode /> }.into_any();
+    let add = move || bench.rearrange(|draft| draft.add_mode(words()).unwrap_or_default());
     view! {
         <p class="hint">{words().mix.modes_hint}</p>
-        <ol class="modes">
-            <For each=move || 0..count.get() key=|mode| *mode let:mode>
-                <ModeView bench mode />
-            </For>
-        </ol>
-        <button type="button" class="small" id="add-mode" on:click=add>{words().mix.add_mode}</button>
+        {group_list("modes", (count, mode), ("add-mode", words().mix.add_mode), add)}
     }
 }
 
@@ -74,9 +65,7 @@ fn ModeView(bench: Bench, mode: usize) -> impl IntoView {
     let holds = Memo::new(move |_| bench.of_live(|mixed| mixed.mode) == Some(mode));
     view! {
         <li>
-            <p class="switch-state" class:on=move || holds.get()>
-                {move || if holds.get() { words().mix.on_now } else { words().mix.off_now }}
-            </p>
+            {switch_state(holds)}
             {group_problem(bench, group)}
             <div class="mix-fields">
                 {ModePart::ALL

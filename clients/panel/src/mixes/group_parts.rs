@@ -1,4 +1,4 @@
-//! What groups of the editor have in common: a head that unfolds them, and buttons that move or remove them.
+//! What groups of the editor have in common: their list, a head that unfolds them, and buttons that move or remove them.
 
 use leptos::prelude::*;
 use panel_logic::Group;
@@ -6,6 +6,33 @@ use panel_logic::Group;
 use super::Bench;
 
 use crate::language::words;
+
+/// The groups of one kind, of the class `kind`, and a button with the name `add-...` that adds one.
+pub(super) fn group_list(
+    kind: &'static str,
+    (count, group): (
+        Memo<usize>,
+        impl Fn(usize) -> AnyView + Clone + Send + Sync + 'static,
+    ),
+    (id, label): (&'static str, &'static str),
+    add: impl Fn() + 'static,
+) -> impl IntoView {
+    view! {
+        <ol class=kind>
+            <For each=move || 0..count.get() key=|place| *place children=group />
+        </ol>
+        <button type="button" class="small" id=id on:click=move |_| add()>{label}</button>
+    }
+}
+
+/// Whether a switch, or the mode that hangs on one, is on.
+pub(super) fn switch_state(is_on: Memo<bool>) -> impl IntoView {
+    view! {
+        <p class="switch-state" class:on=move || is_on.get()>
+            {move || if is_on.get() { words().mix.on_now } else { words().mix.off_now }}
+        </p>
+    }
+}
 
 /// The head of a group, which unfolds it.
 #[component]

@@ -5,7 +5,7 @@ use panel_logic::{Field, Group, InputPart};
 
 use super::bars::Bar;
 use super::field_view::FieldView;
-use super::group_parts::Unfold;
+use super::group_parts::{Unfold, group_list};
 use super::{Bench, group_problem};
 
 use crate::language::words;
@@ -13,15 +13,14 @@ use crate::language::words;
 #[component]
 pub(super) fn Inputs(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().inputs.len()));
-    let add = move |_| bench.rearrange(panel_logic::MixDraft::add_input);
-    view! {
-        <ol class="inputs">
-            <For each=move || 0..count.get() key=|input| *input let:input>
-                <InputView bench input />
-            </For>
-        </ol>
-        <button type="button" class="small" id="add-input" on:click=add>{words().mix.add_input}</button>
-    }
+    let input = move |input| view! { <InputView bench input /> }.into_any();
+    let add = move || bench.rearrange(panel_logic::MixDraft::add_input);
+    group_list(
+        "inputs",
+        (count, input),
+        ("add-input", words().mix.add_input),
+        add,
+    )
 }
 
 #[component]

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use panel_logic::{Field, Group, SwitchPart};
 
 use super::field_view::FieldView;
-use super::group_parts::GroupTools;
+use super::group_parts::{GroupTools, group_list, switch_state};
 use super::{Bench, group_problem};
 
 use crate::language::words;
@@ -12,15 +12,14 @@ use crate::language::words;
 #[component]
 pub(super) fn Switches(bench: Bench) -> impl IntoView {
     let count = Memo::new(move |_| bench.of_draft(|draft| draft.profile().switches.len()));
-    let add = move |_| bench.rearrange(|draft| draft.add_switch(words()).unwrap_or_default());
-    view! {
-        <ol class="switches">
-            <For each=move || 0..count.get() key=|switch| *switch let:switch>
-                <SwitchView bench switch />
-            </For>
-        </ol>
-        <button type="button" class="small" id="add-switch" on:click=add>{words().mix.add_switch}</button>
-    }
+    let switch = move |switch| view! { <SwitchView bench switch /> }.into_any();
+    let add = move || bench.rearrange(|draft| draft.add_switch(words()).unwrap_or_default());
+    group_list(
+        "switches",
+        (count, switch),
+        ("add-switch", words().mix.add_switch),
+        add,
+    )
 }
 
 #[component]
@@ -43,9 +42,7 @@ fn SwitchView(bench: Bench, switch: usize) -> impl IntoView {
     });
     view! {
         <li>
-            <p class="switch-state" class:on=move || is_on.get()>
-                {move || if is_on.get() { words().mix.on_now } else { words().mix.off_now }}
-            </p>
+            {switch_state(is_on)}
             {group_problem(bench, group)}
             <div class="mix-fields">
                 <For each=move || parts.get() key=|part| *part let:part>
