@@ -1,8 +1,6 @@
 //! The views that nobody sees before they ask for them: a file of their own, which the page loads once the robot is on the screen.
-#![allow(
-    unsafe_code,
-    reason = "the macro that marks where the program is split writes some"
-)]
+// The macro that marks where the program is split writes some.
+#![allow(unsafe_code, reason = "wasm_split")]
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;

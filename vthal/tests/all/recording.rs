@@ -12,8 +12,8 @@ use brain::{
 };
 use mcap::{MessageStream, Summary};
 use rvac_api::{
-    BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RoomHere,
-    RunRecord, Status, TrackPose,
+    BatteryReading, ChargerReading, DaemonLoad, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription,
+    RoomHere, RunRecord, Status, TrackPose,
 };
 use serde_json::{Value, json};
 use vthal::recording::{Library, LibraryLimits, Part, RunFile, Whole, track};
@@ -201,6 +201,11 @@ fn measured() -> Record {
             }),
         }),
         currents_a: Some([0.1, 0.2, 0.5]),
+        daemon: Some(DaemonLoad {
+            memory_bytes: Some(20_000_000),
+            busy_s: 12.5,
+            longest_turn_ms: 1.5,
+        }),
         ..DeviceTable::default()
     };
     Record::Device {
